@@ -1,6 +1,7 @@
 --- Hair for an engine: a head and a preset in; a folder out, with strands, guides, cards and their pictures,
 -- and a shell, in levels of detail, one manifest that names them all, and a sheet of pictures to look at.
 --
+-- The rig has lengths, root frames, ties, links and capsules for a simulation of the guides.
 -- Each level has the error of its silhouette from all sides, as a part of that of the full hair, and the
 -- part of the picture's height (screen_size) up to which it shows as much as the finest does in full.
 --
@@ -181,6 +182,11 @@ set:save(path("hair.guides"))
 local off = set:error()
 manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points = params.points,
     error_rms = off.rms, error_max = off.max }
+
+-- What holds the guides, for simulations.
+local rig = set:dynamics{ head = style }:save(path("rig.json")):rig()
+manifest.rig = { file = "rig.json", ties = #rig.ties, links = rig.links, capsules = #rig.capsules,
+    capsule_cover = rig.capsule_cover }
 
 -- Levels stand for full hair: strands of a natural width would leave holes.
 local shown

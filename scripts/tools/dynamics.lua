@@ -133,9 +133,9 @@ return lissom.tool{
     release = function(self, ev)
         local run = self.state.run
         self.state.run = nil
-        if not run then return end
+        if not run or not self.params.keep then return false end
         put_back(run, ev.scene)
-        if self.params.keep then run.dynamics:strands{ into = ev.scene:get(run.hair) } end
+        run.dynamics:strands{ into = ev.scene:get(run.hair) }
     end,
     cancel = function(self) self.state.run = nil end,
 }

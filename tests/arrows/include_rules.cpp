@@ -124,7 +124,7 @@ const std::vector<Names>& room_orders() {
          "kernel/hair/follow/strand_roots", "kernel/hair/strands/strand_edge",
          "kernel/hair/strands/strand_place", "kernel/hair/follow", "kernel/hair/guides",
          "kernel/hair/cards", "kernel/hair/levels", "kernel/hair/operators", "kernel/hair/transfer",
-         "kernel/hair/growth", "kernel/hair"},
+         "kernel/hair/dynamics", "kernel/hair/growth", "kernel/hair"},
         {"kernel/sketch", "kernel/sketch/support"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",

@@ -599,6 +599,39 @@
 ---@field max number The greatest.
 ---@field strand integer|nil The strand that has it.
 
+---Hair in motion against the style at rest, as seen from the head; metres.
+---@class lissom.HairMotion
+---@field time number Seconds since the beginning.
+---@field rms number Root of the mean square of the points' distances from their places.
+---@field max number The greatest of them.
+---@field guide integer|nil The guide that has it.
+---@field speed number Root of the mean square of the points' speeds, in m/s.
+---@field stretch number Greatest change of a segment's length, as a part of it.
+---@field depth number Depth of the deepest point in the body, beyond that at rest.
+
+---All that holds guides; metres, in the space of the head.
+---@class lissom.HairRig
+---@field guides integer Number of guides.
+---@field points integer Points of each.
+---@field links integer Number of links between points of two guides.
+---@field bound_links integer Those of them within bound groups.
+---@field ties lissom.RigTie[] Ties with the points that they hold.
+---@field capsules lissom.Capsule[] Capsules that stand for the body.
+---@field capsule_cover number Part of the body around the guides that they cover.
+
+---A tie of hair.
+---@class lissom.RigTie
+---@field name string Its name.
+---@field center lissom.Vector Its center.
+---@field radius number Its radius.
+---@field points integer[] Points of guides, numbered over all of them.
+
+---All points near a segment.
+---@class lissom.Capsule
+---@field a lissom.Vector One end of the segment.
+---@field b lissom.Vector The other end, which may be the same.
+---@field radius number Greatest distance of its points from the segment.
+
 ---Measures of cards.
 ---@class lissom.CardStats
 ---@field cards integer Number of cards.
@@ -793,6 +826,7 @@
 ---@field release fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The button came up: the step ends.
 ---@field click fun(self: any, event: lissom.MouseEvent): lissom.ToolHost Press and release.
 ---@field wheel fun(self: any, event: lissom.WheelEvent): lissom.ToolHost The wheel turned: part of the gesture while a button is down, else a step of its own.
+---@field tick fun(self: any, event: lissom.ClockEvent): lissom.ToolHost Time passed while a button is down: part of the gesture.
 ---@field key fun(self: any, event: lissom.KeyEvent): lissom.ToolHost A key was pressed.
 ---@field type fun(self: any, text: string): lissom.ToolHost A key for each character.
 ---@field set fun(self: any, values: table): lissom.ToolHost Sets parameters of the tool.
@@ -827,6 +861,10 @@
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
 
+---Time that passed while a button is down.
+---@class lissom.ClockEvent
+---@field seconds number Time since the last tick, or since the press.
+
 ---A key that was pressed.
 ---@class lissom.KeyEvent
 ---@field key string "enter", "escape", "a", ...
@@ -842,6 +880,7 @@
 ---@field button string? left, right or middle.
 ---@field key string? The key, of key.
 ---@field lines number? Turn of the wheel, of wheel: upwards is above 0.
+---@field seconds number? Time since the last tick, of tick.
 ---@field parameter string? The parameter that was set, of changed.
 ---@field shift boolean Whether this key is down.
 ---@field ctrl boolean Likewise.
@@ -3335,7 +3374,7 @@ function GuideSet:error() end
 ---@field guides? lissom.Strands Moved guides, with as many points as those of `guides`. Default: those at rest.
 ---@field details? boolean Adds the differences of the strands from their sums. Default: true.
 
----All strands from the guides, as lissom_hair.h does it in an engine; details do not turn here.
+---All strands from the guides, as lissom_hair.h does it in an engine.
 ---@param options? lissom.GuideSet.RebuildOptions
 ---@return lissom.Strands strands # In the order of the strands.
 function GuideSet:rebuild(options) end
@@ -3348,6 +3387,35 @@ function GuideSet:rebuild(options) end
 ---@param options? lissom.GuideSet.SaveOptions
 ---@return lissom.GuideSet set # The set itself.
 function GuideSet:save(path, options) end
+
+---@class lissom.GuideSet.DynamicsOptions.Ties
+---@field name? string Name, for messages and files. Default: "tie".
+---@field center lissom.Vector Its center, in metres of the strands.
+---@field radius? number Its radius. In metres. Default: 0.02.
+
+---@class lissom.GuideSet.DynamicsOptions
+---@field head? lissom.Hairstyle A style on the head that they grew on: its body keeps the hair out. Default: no body.
+---@field ties? lissom.GuideSet.DynamicsOptions.Ties[] Balls that hold the hair in them to the head, as elastics and pins do. Default: those of the ponytails of `head`.
+---@field bound? string[] Groups of strands whose guides are bound to one another wherever they touch, as in a braid. Default: none.
+---@field reach? number Distance of points of two guides up to which they are linked. In metres. Default: 0.015.
+---@field links? integer Links of a point to others, at most. Default: 2.
+---@field capsules? integer Capsules that stand for the body in files, at most. Default: 12.
+---@field gravity? lissom.Vector Gravity in the world. In m/s^2. Default: 9.81 down, by the head, else along -y.
+---@field wind? lissom.Vector Speed of the air in the world. In m/s. Default: {0, 0, 0}.
+---@field gusts? number Part of the wind that comes and goes. Default: 0.5.
+---@field stiffness? number Length of a straight strand that droops by an eighth of it if its root is held level. Hair as it is: 0.05; with gel: 0.2. In metres. Default: 0.05.
+---@field hold? number Part of the weight at rest that the style carries: with 1 it stays as it is until head or wind move it. Default: 0.
+---@field drag? number Rate at which hair takes the speed of the air. In 1/s. Default: 4.
+---@field cohesion? number Strength of links between guides that are not bound. Default: 0.2.
+---@field friction? number Friction at the body. Default: 0.4.
+---@field clearance? number Distance that hair stays off the body, if it did so at rest. In metres. Default: 0.001.
+---@field substeps? integer Steps in a thirtieth of a second. Default: 20.
+---@field seed? integer Seed of the gusts. Default: 1.
+
+---Prepares the guides to move: rods that gravity, wind and the motion of the head bend, to see whether a style holds.
+---@param options? lissom.GuideSet.DynamicsOptions
+---@return lissom.HairDynamics dynamics # The hair at rest.
+function GuideSet:dynamics(options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function GuideSet:close() end
@@ -3384,6 +3452,77 @@ function StrandFollower:follow(head, options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function StrandFollower:close() end
+
+---Guides in motion, and their rig.
+---@class lissom.HairDynamics
+local HairDynamics = {}
+
+---@class lissom.HairDynamics.StepOptions.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the origin.
+
+---@class lissom.HairDynamics.StepOptions
+---@field head? number[][] Place of the head in the world, metres; instead of the others. Default: that of the others.
+---@field translate? lissom.Vector Translation of the head in the world, from its place at the beginning; added last. In metres. Default: with rotate none, else that of the present place.
+---@field rotate? lissom.HairDynamics.StepOptions.Rotate Rotation of the head from that at the beginning. Default: with translate none, else that of the present place.
+
+---Moves the hair on, while the head goes evenly from its present place to the one given. The same for any number of threads.
+---@param seconds number Time of the step.
+---@param options? lissom.HairDynamics.StepOptions
+---@return lissom.HairDynamics dynamics # The dynamics itself.
+function HairDynamics:step(seconds, options) end
+
+---@class lissom.HairDynamics.SetOptions
+---@field gravity? lissom.Vector Gravity in the world. In m/s^2. Default: as it is.
+---@field wind? lissom.Vector Speed of the air in the world. In m/s. Default: as it is.
+---@field gusts? number Part of the wind that comes and goes. Default: as it is.
+---@field stiffness? number Length of a straight strand that droops by an eighth of it if its root is held level. Hair as it is: 0.05; with gel: 0.2. In metres. Default: as it is.
+---@field hold? number Part of the weight at rest that the style carries: with 1 it stays as it is until head or wind move it. Default: as it is.
+---@field drag? number Rate at which hair takes the speed of the air. In 1/s. Default: as it is.
+---@field cohesion? number Strength of links between guides that are not bound. Default: as it is.
+---@field friction? number Friction at the body. Default: as it is.
+---@field clearance? number Distance that hair stays off the body, if it did so at rest. In metres. Default: as it is.
+---@field substeps? integer Steps in a thirtieth of a second. Default: as it is.
+---@field seed? integer Seed of the gusts. Default: as it is.
+
+---Changes options of the next steps.
+---@param options? lissom.HairDynamics.SetOptions
+---@return lissom.HairDynamics dynamics # The dynamics itself.
+function HairDynamics:set(options) end
+
+---Puts hair and head back to the beginning.
+---@return lissom.HairDynamics dynamics # The dynamics itself.
+function HairDynamics:reset() end
+
+---The guides as they are now, in the space of the head.
+---@return lissom.Strands guides # As `guides` of the set.
+function HairDynamics:guides() end
+
+---@class lissom.HairDynamics.StrandsOptions
+---@field details? boolean Adds the differences of the strands from their sums. Default: true.
+---@field into? lissom.Strands Strands of the set, which take the new places and keep all else. Default: new strands.
+
+---All strands as they are now, in the space of the head, as `rebuild` of the set makes them.
+---@param options? lissom.HairDynamics.StrandsOptions
+---@return lissom.Strands strands # In the order of the strands.
+function HairDynamics:strands(options) end
+
+---How far the hair is from the style at rest, and how fast it moves.
+---@return lissom.HairMotion motion # As seen from the head.
+function HairDynamics:motion() end
+
+---Ties, links and capsules, as a simulation of an engine takes them.
+---@return lissom.HairRig rig # A copy.
+function HairDynamics:rig() end
+
+---Writes the rig as JSON, whole or not at all: guides with lengths and root frames, ties, links, capsules, and the length of each strand at rest.
+---@param path string The file.
+---@return lissom.HairDynamics dynamics # The dynamics itself.
+function HairDynamics:save(path) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function HairDynamics:close() end
 
 ---Named objects in an order, with a history of their changes.
 ---@class lissom.Scene
@@ -4568,7 +4707,7 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
----Makes a tool: functions that are called with a hand's input. press, drag and release, or run, a coroutine that asks by lissom.pick, of which clicks are the answers unless press returns true; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
+---Makes a tool: functions that are called with a hand's input. press, drag and release, or run, a coroutine that asks by lissom.pick, of which clicks are the answers unless press returns true; tick, called about 30 times a second while a button is down; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. A release that returns false takes the gesture back, for what is only shown. drag is called with every place that the hand came to. The table's other keys are the tool's own.
 ---@param tool table name, help, params (as for lissom.params) and functions.
 ---@return table tool # The same table; `tool.params` are the values now.
 function lissom.tool(tool) end

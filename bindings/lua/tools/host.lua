@@ -509,6 +509,14 @@ function Host:move(fields)
     return self
 end
 
+-- A gesture that only showed something.
+function Host:end_without_step()
+    self:take_back()
+    if self.journal then self.journal:end_step(self.tool.name, false) end
+    self:mark(false)
+    return self
+end
+
 function Host:release(fields)
     self:ready()
     self:place(fields)
@@ -518,8 +526,8 @@ function Host:release(fields)
     if self.held.answers then
         local hit = self:candidate(event)
         if hit then self:answer(hit) end
-    else
-        self:call("release", event)
+    elseif self:call("release", event) == false then
+        return self:end_without_step()
     end
     self.held = nil
     self:mark(self:commit())

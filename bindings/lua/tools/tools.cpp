@@ -515,7 +515,8 @@ std::vector<Function> tool_functions() {
              "deactivate, cancel. All take the tool itself and a "
              "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of "
              "the scene, any other call is one of its own; after an error the scene is as "
-             "before. drag is called with every place that the hand came to. The table's other "
+             "before. A release that returns false takes the gesture back, for what is only shown. "
+             "drag is called with every place that the hand came to. The table's other "
              "keys are the tool's own.",
          .arguments = {table("tool", "name, help, params (as for lissom.params) and functions.")},
          .results = {{"table", "tool", "The same table; `tool.params` are the values now."}},

@@ -11,6 +11,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/dynamics/hair_rig.h"
+#include "kernel/hair/operators/strand_collision.h"
 
 namespace lissom {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "kernel/core/index.h"
 #include "kernel/hair/dynamics/body_capsules.h"
 #include "kernel/hair/guides/guide_set.h"
+#include "kernel/hair/operators/strand_collision.h"
 
 namespace lissom {
 

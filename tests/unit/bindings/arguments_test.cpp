@@ -74,6 +74,7 @@ paste = lissom.paste{ source = globe, target = globe:copy(), placement = { at = 
 local tuft = lissom.strands{ counts = { 2, 2, 2, 2 }, points = { { 0, 0, 0 }, { 0, 1, 0 }, { 0.1, 0, 0 }, { 0.1, 1, 0 },
     { 0, 0, 0.1 }, { 0, 1, 0.1 }, { 0.1, 0, 0.1 }, { 0.1, 1, 0.1 } } }
 guides, cards = tuft:guide_set{ count = 3 }, tuft:cards{ count = 2 }
+dynamics = guides:dynamics{}
 local planted = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
 planted:add_stream{ points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
 follower = planted:grow{ count = 3, length = 0.1 }:follower{}
@@ -125,6 +126,7 @@ local lasting = {
     ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
     ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
     ["lissom.StrandFollower"] = follower, ["lissom.PoseSpace"] = pose_space,
+    ["lissom.HairDynamics"] = dynamics,
     ["lissom.Support"] = support, ["lissom.ToolView"] = view,
 }
 objects = setmetatable({}, { __index = function(_, name)

@@ -9,7 +9,7 @@ using namespace lissom;
 using namespace lissom::window;
 using namespace lissom::test;
 
-TEST_CASE("tool input: looks and turns of the wheel do not pile up, and no move is lost") {
+TEST_CASE("tool input: looks, turns of the wheel and ticks do not pile up, and no move is lost") {
     std::vector<ToolInput> inputs;
     push_input(inputs, input(Kind::move, 1.0));
     push_input(inputs, input(Kind::move, 2.0));
@@ -28,7 +28,13 @@ TEST_CASE("tool input: looks and turns of the wheel do not pile up, and no move 
         turned.lines = lines;
         push_input(inputs, turned);
     }
-    REQUIRE(inputs.size() == 109);
+    ToolInput ticked = input(Kind::tick);
+    for (int i = 0; i < 3; ++i) {
+        ticked.seconds = 0.25;
+        push_input(inputs, ticked);
+    }
+    REQUIRE(inputs.size() == 110);
+    CHECK(inputs[109].seconds == 0.75);
     CHECK(inputs[0].at.x() == 1.0);
     CHECK(inputs[102].at.x() == 99.0);
     CHECK(inputs[108].lines == 2.5);
