@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kernel/core/rotation.h"
-#include "kernel/hair/dynamics/band_system.h"
+#include "kernel/hair/dynamics/rod_system.h"
 
 namespace lissom {
 namespace {
@@ -92,7 +92,7 @@ void Rods::hold(std::span<Vec3> places, const Affine& head, Index rod) const {
 // all points at once, as a rod is far stiffer from end to end than from point to point.
 void Rods::bend(std::span<Vec3> places, const RodStep& step, Index rod) const {
     const std::size_t first = at(rod * points_);
-    BandSystem system(at(points_));
+    RodSystem system(at(points_));
     for (std::size_t k = 0; k < at(points_); ++k) {
         const double mobility = inverse_masses_[first + k];
         system.add(k, k, (mobility > 0.0 ? 1.0 / mobility : kHeldMass) * Mat3::Identity());
@@ -114,7 +114,7 @@ void Rods::bend(std::span<Vec3> places, const RodStep& step, Index rod) const {
 // turns with the segment before that point; its energy is that of an elastic rod, and its change is
 // damped.
 void Rods::add_bend(std::span<const Vec3> places, const Directions& now, const RodStep& step,
-                    const Place& here, BandSystem& system) const {
+                    const Place& here, RodSystem& system) const {
     const std::size_t k = here.point;
     const Vec3 along = direction_between(places[k], places[k + 1], now.target);
     const Mat3 before = carried(along, now.target) / lengths_[k];

@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-class BandSystem;
+class RodSystem;
 
 /// A step of rods in time.
 struct RodStep {
@@ -65,7 +65,7 @@ class Rods {
     void prepare_bends(Index rod);
     void prepare_masses(Index rod);
     void add_bend(std::span<const Vec3> places, const Directions& now, const RodStep& step,
-                  const Place& here, BandSystem& system) const;
+                  const Place& here, RodSystem& system) const;
     double correct_lengths(std::span<Vec3> places, Index rod) const;
 
     Index count_ = 0, points_ = 0;

@@ -1,14 +1,14 @@
-#include "kernel/hair/dynamics/band_system.h"
+#include "kernel/hair/dynamics/rod_system.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace lissom {
 
-BandSystem::BandSystem(std::size_t points)
+RodSystem::RodSystem(std::size_t points)
     : size_(3 * points), band_(kBand * size_, 0.0), right_(size_, 0.0) {}
 
-void BandSystem::add(std::size_t row, std::size_t column, const Mat3& block) {
+void RodSystem::add(std::size_t row, std::size_t column, const Mat3& block) {
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t last = row == column ? i : 2;
         for (std::size_t j = 0; j <= last; ++j) {
@@ -17,11 +17,11 @@ void BandSystem::add(std::size_t row, std::size_t column, const Mat3& block) {
     }
 }
 
-void BandSystem::push(std::size_t row, const Vec3& value) {
+void RodSystem::push(std::size_t row, const Vec3& value) {
     for (std::size_t i = 0; i < 3; ++i) right_[3 * row + i] += value[index_of(i)];
 }
 
-void BandSystem::factor() {
+void RodSystem::factor() {
     for (std::size_t i = 0; i < size_; ++i) {
         const std::size_t first = i < kBand - 1 ? 0 : i - (kBand - 1);
         for (std::size_t j = first; j <= i; ++j) {
@@ -33,7 +33,7 @@ void BandSystem::factor() {
     }
 }
 
-void BandSystem::solve() {
+void RodSystem::solve() {
     factor();
     for (std::size_t i = 0; i < size_; ++i) {
         const std::size_t first = i < kBand - 1 ? 0 : i - (kBand - 1);
@@ -47,7 +47,7 @@ void BandSystem::solve() {
     }
 }
 
-Vec3 BandSystem::result(std::size_t point) const {
+Vec3 RodSystem::result(std::size_t point) const {
     return {right_[3 * point], right_[3 * point + 1], right_[3 * point + 2]};
 }
 

@@ -1,4 +1,4 @@
-/// BandSystem: a symmetric positive definite system of the points of a rod, of which each meets the
+/// RodSystem: a symmetric positive definite system of the points of a rod, of which each meets the
 /// two before and the two behind it; private to kernel/hair.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace lissom {
 
-class BandSystem {
+class RodSystem {
   public:
     /// A system of zeros.
-    explicit BandSystem(std::size_t points);
+    explicit RodSystem(std::size_t points);
 
     /// Adds a block at the row of a point and the column of that one or of one of the two before.
     void add(std::size_t row, std::size_t column, const Mat3& block);
