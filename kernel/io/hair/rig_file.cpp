@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using RigJson = nlohmann::ordered_json;
 
 // JSON has no text for numbers that are not finite. Micrometres are enough for places.
 double tidy(double x) {
@@ -17,12 +17,12 @@ double tidy(double x) {
     return std::round(x * 1e7) / 1e7;
 }
 
-Json place(const Vec3& p) {
+RigJson place(const Vec3& p) {
     return {tidy(p.x()), tidy(p.y()), tidy(p.z())};
 }
 
-Json guides_of(const HairRig& rig) {
-    Json curves = Json::array(), frames = Json::array(), lengths = Json::array();
+RigJson guides_of(const HairRig& rig) {
+    RigJson curves = RigJson::array(), frames = RigJson::array(), lengths = RigJson::array();
     for (const Eigen::Vector3f& p : rig.curves) {
         for (const float x : p) curves.push_back(tidy(x));
     }
@@ -34,8 +34,8 @@ Json guides_of(const HairRig& rig) {
             {"curves", curves},           {"lengths", lengths},   {"root_frames", frames}};
 }
 
-Json ties_of(const HairRig& rig) {
-    Json list = Json::array();
+RigJson ties_of(const HairRig& rig) {
+    RigJson list = RigJson::array();
     for (const TiedPoints& tied : rig.ties) {
         list.push_back({{"name", tied.tie.name},
                         {"center", place(tied.tie.center)},
@@ -45,8 +45,8 @@ Json ties_of(const HairRig& rig) {
     return list;
 }
 
-Json links_of(const HairRig& rig) {
-    Json list = Json::array();
+RigJson links_of(const HairRig& rig) {
+    RigJson list = RigJson::array();
     for (const HairLink& link : rig.links) {
         list.push_back(
             {{"a", link.a}, {"b", link.b}, {"length", tidy(link.length)}, {"bound", link.bound}});
@@ -54,8 +54,8 @@ Json links_of(const HairRig& rig) {
     return list;
 }
 
-Json capsules_of(const HairRig& rig) {
-    Json list = Json::array();
+RigJson capsules_of(const HairRig& rig) {
+    RigJson list = RigJson::array();
     for (const Capsule& capsule : rig.capsules) {
         list.push_back(
             {{"a", place(capsule.a)}, {"b", place(capsule.b)}, {"radius", tidy(capsule.radius)}});
@@ -66,7 +66,7 @@ Json capsules_of(const HairRig& rig) {
 }  // namespace
 
 std::string encode_rig(const HairRig& rig) {
-    Json json;
+    RigJson json;
     json["format"] = "lissom hair rig";
     json["version"] = 1;
     json["units"] = "metres";
@@ -75,10 +75,10 @@ std::string encode_rig(const HairRig& rig) {
     json["links"] = links_of(rig);
     json["capsules"] = capsules_of(rig);
     json["capsule_cover"] = tidy(rig.capsule_cover);
-    Json lengths = Json::array();
+    RigJson lengths = RigJson::array();
     for (const float length : rig.strand_lengths) lengths.push_back(tidy(length));
     json["strand_lengths"] = lengths;
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(-1, ' ', false, RigJson::error_handler_t::replace) + "\n";
 }
 
 void save_rig(const HairRig& rig, const std::filesystem::path& path, const Context& context) {
