@@ -22,7 +22,7 @@ constexpr Index kRodGrain = 4;
 // Of the box around hair at rest, on each side: hair that swings farther meets no body.
 constexpr double kRoom = 0.15;
 
-bool is_within(double value, double least, double most) {
+bool lies_in(double value, double least, double most) {
     return value >= least && value <= most;
 }
 
@@ -51,13 +51,13 @@ void require_dynamics(const HairDynamicsOptions& options) {
             "gravity and wind are finite numbers", ErrorCode::not_finite);
     require(options.gravity.norm() <= kMostSpeed, "gravity is at most 1000 m/s^2");
     require(options.wind.norm() <= kMostSpeed, "wind is at most 1000 m/s");
-    require(is_within(options.gusts, 0.0, 1.0), "gusts are a part of the wind from 0 to 1");
-    require(is_within(options.stiffness, 0.001, 10.0), "stiffness is a length of 1 mm to 10 m");
-    require(is_within(options.hold, 0.0, 1.0), "hold is from 0 to 1");
-    require(is_within(options.drag, 0.0, 1000.0), "drag is from 0 to 1000");
-    require(is_within(options.cohesion, 0.0, 1.0), "cohesion is from 0 to 1");
-    require(is_within(options.friction, 0.0, 10.0), "friction is from 0 to 10");
-    require(is_within(options.clearance, 0.0, 1.0), "clearance is from 0 to 1 metre");
+    require(lies_in(options.gusts, 0.0, 1.0), "gusts are a part of the wind from 0 to 1");
+    require(lies_in(options.stiffness, 0.001, 10.0), "stiffness is a length of 1 mm to 10 m");
+    require(lies_in(options.hold, 0.0, 1.0), "hold is from 0 to 1");
+    require(lies_in(options.drag, 0.0, 1000.0), "drag is from 0 to 1000");
+    require(lies_in(options.cohesion, 0.0, 1.0), "cohesion is from 0 to 1");
+    require(lies_in(options.friction, 0.0, 10.0), "friction is from 0 to 10");
+    require(lies_in(options.clearance, 0.0, 1.0), "clearance is from 0 to 1 metre");
     require(options.substeps >= 1 && options.substeps <= 1000, "there are 1 to 1000 substeps");
 }
 
