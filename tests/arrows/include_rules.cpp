@@ -107,7 +107,7 @@ const std::vector<Names>& room_orders() {
         {"kernel/mesh", "kernel/mesh/measure", "kernel/mesh/query", "kernel/mesh/edit",
          "kernel/mesh/repair", "kernel/mesh/render", "kernel/mesh/cut",
          "kernel/mesh/edit/symmetrize", "kernel/mesh/fill", "kernel/mesh/parameterize",
-         "kernel/mesh/shapes"},
+         "kernel/mesh/unwrap", "kernel/mesh/shapes"},
         {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
          "kernel/deform/volume", "kernel/deform/comparison_method", "kernel/deform/stats",

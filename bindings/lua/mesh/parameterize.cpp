@@ -3,6 +3,7 @@
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/mesh/parameterize/uv_attribute.h"
+#include "kernel/mesh/unwrap/unwrap.h"
 
 namespace lissom::lua {
 namespace {
@@ -42,6 +43,58 @@ int parameterize_mesh(Call& call) {
     return 1 + push_map_report(call, map);
 }
 
+int unwrap_mesh(Call& call) {
+    const char* name = call.string("attribute");
+    const char* chart_name = call.has("charts") ? call.string("charts") : nullptr;
+    UnwrapOptions options;
+    options.stretch = call.number("stretch");
+    options.crease = call.number("crease");
+    options.gap = call.number("gap");
+    auto& made = call.hold<Unwrapping>();
+    const int results = change_mesh(call, [&](Mesh& mesh) {
+        made = unwrap(mesh, options, call.context());
+        write_unwrapping(mesh, made, name);
+        if (chart_name) {
+            Attribute charts{chart_name, Domain::face, 1, ScalarType::int32, {}};
+            for (const Index chart : made.chart) charts.values.push_back(chart + 1.0);
+            if (mesh.attributes().find(chart_name)) mesh.attributes().remove(chart_name);
+            mesh.attributes().add(std::move(charts));
+        }
+    });
+    if (results != 1) return results;
+    lua_createtable(call.lua(), 0, 7);
+    call.set_field("charts", call.push(made.chart_count));
+    call.set_field("coverage", call.push(made.coverage));
+    call.set_field("side", call.push(made.side));
+    call.set_field("mean_stretch", call.push(made.mean_stretch));
+    call.set_field("stretch", call.push(made.stretch));
+    call.set_field("seam_length", call.push(made.seam_length));
+    call.set_field("flipped", call.push_ids(made.flipped));
+    return 2;
+}
+
+std::vector<Parameter> unwrap_options() {
+    const UnwrapOptions d;
+    return {
+        number("stretch",
+               "Greatest factor by which a length may change, for all but a fiftieth of a "
+               "chart's area: more charts for less.")
+            .defaults(d.stretch)
+            .above(1),
+        number("crease", "How much seams prefer creases to short ways.")
+            .defaults(d.crease)
+            .at_least(0),
+        number("gap",
+               "Space between two charts, as a part of the square's side: 4 / 1024 are four "
+               "pixels of a texture with 1,024.")
+            .defaults(d.gap)
+            .between(0.0005, 0.1),
+        string("attribute",
+               "Attribute for the coordinates: \"uv\", \"uv2\", or a name of your own.")
+            .defaults("uv"),
+        string("charts", "Attribute of faces for the numbers of their charts.").optional("none")};
+}
+
 std::vector<Parameter> parameterize_options() {
     const ParameterizeOptions defaults;
     return {object("region", "lissom.Region",
@@ -70,7 +123,17 @@ std::vector<Parameter> parameterize_options() {
 }  // namespace
 
 std::vector<Record> parameterize_records() {
-    return {{"lissom.ParameterizeReport",
+    return {{"lissom.UnwrapReport",
+             "A surface as charts in the unit square.",
+             {{"integer", "charts", "Number of charts; they are numbered from the largest on."},
+              {"number", "coverage", "Part of the square that they cover."},
+              {"number", "side", "Side of the square, in lengths of the mesh."},
+              {"number", "mean_stretch",
+               "Mean of the factors by which lengths change most at a point; 1 for none."},
+              {"number", "stretch", "The greatest of them but for a fiftieth of the area."},
+              {"number", "seam_length", "Length of the seams on the surface."},
+              {"integer[]", "flipped", "Faces that are turned over."}}},
+            {"lissom.ParameterizeReport",
              "Quality of a map into the plane.",
              {{"string", "method", "Method that made it: lscm if arap turned faces over at once."},
               {"integer", "iterations", "Iterations of arap that are in it."},
@@ -87,7 +150,21 @@ std::vector<Record> parameterize_records() {
 }
 
 std::vector<Function> parameterize_methods_of_mesh() {
-    return {{.name = "parameterize",
+    return {{.name = "unwrap",
+             .body = unwrap_mesh,
+             .summary =
+                 "Cuts the whole surface into charts that lie flat with little stretch, and packs "
+                 "them into the unit square as texture coordinates, in place of those it had. "
+                 "Seams keep to creases; open meshes, handles and several parts are welcome.",
+             .options = unwrap_options(),
+             .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
+                         {"lissom.UnwrapReport", "report", "Charts and their quality."}},
+             .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument, ErrorCode::memory_limit,
+                        ErrorCode::cancelled},
+             .example = R"(local box = lissom.shapes.box()
+local _, report = box:unwrap{ stretch = 1.2 }
+assert(report.stretch < 1.01 and #report.flipped == 0))"},
+            {.name = "parameterize",
              .body = parameterize_mesh,
              .summary = "Lays the surface, or a region of it, out in the plane, and keeps the "
                         "place of each corner as texture coordinates. Other corners keep theirs.",

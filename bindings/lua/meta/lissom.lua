@@ -226,6 +226,16 @@
 ---@field removed_faces integer Faces that are gone.
 ---@field divided_faces integer Faces that were divided.
 
+---A surface as charts in the unit square.
+---@class lissom.UnwrapReport
+---@field charts integer Number of charts; they are numbered from the largest on.
+---@field coverage number Part of the square that they cover.
+---@field side number Side of the square, in lengths of the mesh.
+---@field mean_stretch number Mean of the factors by which lengths change most at a point; 1 for none.
+---@field stretch number The greatest of them but for a fiftieth of the area.
+---@field seam_length number Length of the seams on the surface.
+---@field flipped integer[] Faces that are turned over.
+
 ---Quality of a map into the plane.
 ---@class lissom.ParameterizeReport
 ---@field method string Method that made it: lscm if arap turned faces over at once.
@@ -1382,6 +1392,19 @@ function Mesh:erase(region, options) end
 ---@return lissom.Mesh mesh # The mesh with both.
 ---@return lissom.MergeReport report # The report of lissom.merge; its field `paste` is a lissom.PasteReport.
 function Mesh:clone(options) end
+
+---@class lissom.Mesh.UnwrapOptions
+---@field stretch? number Greatest factor by which a length may change, for all but a fiftieth of a chart's area: more charts for less. Default: 1.3.
+---@field crease? number How much seams prefer creases to short ways. Default: 1.
+---@field gap? number Space between two charts, as a part of the square's side: 4 / 1024 are four pixels of a texture with 1,024. Default: 0.00390625.
+---@field attribute? string Attribute for the coordinates: "uv", "uv2", or a name of your own. Default: "uv".
+---@field charts? string Attribute of faces for the numbers of their charts. Default: none.
+
+---Cuts the whole surface into charts that lie flat with little stretch, and packs them into the unit square as texture coordinates, in place of those it had. Seams keep to creases; open meshes, handles and several parts are welcome.
+---@param options? lissom.Mesh.UnwrapOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return lissom.UnwrapReport report # Charts and their quality.
+function Mesh:unwrap(options) end
 
 ---@class lissom.Mesh.ParameterizeOptions
 ---@field region? lissom.Region Its faces are laid out: one part without handles, with at least one boundary. Default: the whole mesh.
