@@ -51,7 +51,8 @@ class FaceWays {
             queue.push({0.0, starts[i]});
         }
         while (!queue.empty()) {
-            const auto [cost, place] = queue.top();
+            const double cost = queue.top().first;
+            const std::size_t place = queue.top().second;
             queue.pop();
             if (cost > cost_[place]) continue;
             for_each_neighbor(place, [&](std::size_t other, Index corner) {
