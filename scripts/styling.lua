@@ -216,6 +216,22 @@ function styling.ragged_hem(hair, scalp, hem, ragged, seed)
         mask = function(strand) return styling.chance(strand, seed) < 0.6 and 1 or 0 end }
 end
 
+--- Waves of long hair that ends at one height, in locks; `options` are those of hair:wave. Turns are counted
+-- from the ends, so that crests of long and short hair lie together: counted from the roots, those of layers
+-- would cross, and all would begin at one height, in a band.
+function styling.loose_waves(hair, scalp, options)
+    local unit = scalp:unit()
+    local function begin(strand, x, y, z)
+        local p = scalp:to_metres(x / unit, y / unit, z / unit)
+        local sway = 0.22 * math.sin(48 * p[1] + 0.6) + 0.16 * math.sin(20 * p[1] + 70 * p[2] - 40 * p[3])
+        return sway - hair:root(strand).arc / options.wavelength
+    end
+    local all = { begin = begin, start = 0.01, ramp = 0.14, variation = 0.08, depth = 0.8,
+        keep_length = false }
+    for key, value in pairs(options) do all[key] = value end
+    return hair:wave(all)
+end
+
 --- Straight long hair of a style: grown, in locks, cut `length` metres below the middle of the head, lowest
 -- in the middle of the back. `options` are further ones of style:grow.
 function styling.straight(style, o, v, options)

@@ -6,10 +6,10 @@ local styling = require "styling"
 
 -- The lower hair begins below the line that parts it from the upper.
 local routes = {
-    { { 62, 22, 3 }, { 72, 6, 14 }, { "at", 86, -60, 22 }, { "at", 82, -115, -20 }, { "at", 76, -170, -80 },
-        { "at", 72, -220, -106 }, { "at", 70, -360, -110 } },
-    { { 84, 28, 6 }, { 92, 2, 16 }, { "at", 92, -60, -18 }, { "at", 76, -120, -58 }, { "at", 66, -190, -104 },
-        { "at", 62, -360, -112 } },
+    { { 60, 30, 3 }, { 72, 18, 9 }, { 80, 2, 15 }, { "at", 86, -60, 22 }, { "at", 82, -115, -20 },
+        { "at", 76, -170, -80 }, { "at", 72, -220, -106 }, { "at", 70, -360, -110 } },
+    { { 80, 32, 4 }, { 90, 20, 10 }, { 96, 2, 16 }, { "at", 92, -60, -18 }, { "at", 76, -120, -58 },
+        { "at", 66, -190, -104 }, { "at", 62, -360, -112 } },
     { { 122, 26, 5 }, { 122, -5, 15 }, { "at", 70, -80, -66 }, { "at", 54, -130, -84 },
         { "at", 46, -190, -108 }, { "at", 44, -360, -114 } },
     { { 155, 22, 4 }, { 154, -28, 15 }, { "at", 34, -130, -88 }, { "at", 30, -200, -108 }, { "at", 28, -360,
@@ -35,17 +35,18 @@ return styling.preset(..., {
         local scalp = o.scalp
         local function upper(azimuth, elevation)
             local line = v.line - 9 * styling.smooth(100, 180, math.abs(azimuth))
-            return styling.smooth(line - 1, line + 1, elevation)
+            return styling.smooth(line - 5, line + 5, elevation)
         end
         local low = styling.long(head, o, routes)
         local hair = low:grow{ count = math.floor(0.9 * o.count), seed = v.seed, length = 0.225 + v.length,
             layer = 0.01, clearance = 0.003,
             density = styling.by_angles(scalp, function(...) return 1 - upper(...) end) }
         hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
-        hair:gather{ guides = 80, factor = 0.35, ramp = 0.15, spread = 0.006 }
         hair:cull{ mask = styling.over_face(scalp, hair) }
-        hair:wave{ radius = v.wave, wavelength = 0.095, depth = 1, keep_length = false, seed = v.seed }
-        hair:cut{ hem = { { 0, -v.length } }, scalp = scalp, jitter = 0.01, guide_jitter = 0.015 }
+        hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
+        hair:gather{ guides = 80, factor = 0.35, ramp = 0.15, spread = 0.006 }
+        styling.loose_waves(hair, scalp, { radius = v.wave, wavelength = 0.095, seed = v.seed })
+        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.016, v.seed)
         hair:clump{ clumps = 600, strength = 0.5 }:push_out{ head = low, clearance = 0.003 }
         local style, up, tie = ponytail.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },

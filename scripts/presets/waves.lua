@@ -23,11 +23,11 @@ return styling.preset(..., {
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.225 + v.length, layer = 0.012,
             clearance = 0.004 }
         hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
-        hair:gather{ guides = v.locks, factor = 0.35, ramp = 0.15, spread = 0.006 }
         hair:cull{ mask = styling.over_face(scalp, hair) }
-        hair:wave{ radius = v.radius, wavelength = v.wavelength, depth = 1, keep_length = false,
-            seed = v.seed }
-        hair:cut{ hem = { { 0, -v.length } }, scalp = scalp, jitter = 0.01, guide_jitter = 0.015 }
+        hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
+        hair:gather{ guides = v.locks, factor = 0.35, ramp = 0.15, spread = 0.006 }
+        styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, seed = v.seed })
+        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.016, v.seed)
         hair:clump{ clumps = 700, strength = 0.5 }
         styling.finish(hair, 0.00026, 0.002):push_out{ head = style, clearance = 0.003 }
         return style, hair, { unit = scalp:unit() }
