@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace lissom::wasm {
 namespace {
@@ -28,29 +29,23 @@ Vector unit(const Vector& a) {
     return length > 0.0 ? Vector{a[0] / length, a[1] / length, a[2] / length} : Vector{};
 }
 
-// Of a mesh whose faces are triangles by now.
-struct Surface {
-    std::vector<double> positions;
-    std::vector<std::uint32_t> corners;
-    // Of triangles, of unit length.
-    std::vector<Vector> normals;
-    // Corners by their vertex: those of vertex v begin at first[v].
-    std::vector<std::uint32_t> first, around;
+Vector position(const Surface& surface, std::uint32_t vertex) {
+    const double* p = surface.positions.data() + std::size_t{3} * vertex;
+    return {p[0], p[1], p[2]};
+}
 
-    Vector position(std::uint32_t vertex) const {
-        const double* p = positions.data() + std::size_t{3} * vertex;
-        return {p[0], p[1], p[2]};
-    }
-    Vector edge(std::size_t corner, std::size_t step) const {
-        const std::size_t triangle = corner / 3 * 3;
-        return minus(position(corners[triangle + (corner + step) % 3]), position(corners[corner]));
-    }
-    double angle(std::size_t corner) const {
-        const Vector a = edge(corner, 1), b = edge(corner, 2);
-        const Vector c = cross(a, b);
-        return std::atan2(std::sqrt(dot(c, c)), dot(a, b));
-    }
-};
+Vector edge(const Surface& surface, std::size_t corner, std::size_t step) {
+    const std::size_t triangle = corner / 3 * 3;
+    const auto& corners = surface.corners;
+    return minus(position(surface, corners[triangle + (corner + step) % 3]),
+                 position(surface, corners[corner]));
+}
+
+double angle(const Surface& surface, std::size_t corner) {
+    const Vector a = edge(surface, corner, 1), b = edge(surface, corner, 2);
+    const Vector c = cross(a, b);
+    return std::atan2(std::sqrt(dot(c, c)), dot(a, b));
+}
 
 lissom_status read_surface(lissom_context* context, lissom_mesh mesh, Surface& surface) {
     const auto vertices = static_cast<std::size_t>(lissom_mesh_vertex_count(context, mesh));
@@ -66,7 +61,7 @@ lissom_status read_surface(lissom_context* context, lissom_mesh mesh, Surface& s
 void find_normals(Surface& surface) {
     surface.normals.resize(surface.corners.size() / 3);
     for (std::size_t t = 0; t < surface.normals.size(); ++t) {
-        surface.normals[t] = unit(cross(surface.edge(3 * t, 1), surface.edge(3 * t, 2)));
+        surface.normals[t] = unit(cross(edge(surface, 3 * t, 1), edge(surface, 3 * t, 2)));
     }
 }
 
@@ -99,11 +94,11 @@ Vector corner_normal(const Surface& surface, const std::vector<double>& angles, 
 void put_corners(const Surface& surface, double least_cosine, DrawnMesh& drawn) {
     const std::size_t count = surface.corners.size();
     std::vector<double> angles(count);
-    for (std::size_t c = 0; c < count; ++c) angles[c] = surface.angle(c);
+    for (std::size_t c = 0; c < count; ++c) angles[c] = angle(surface, c);
     drawn.positions.resize(3 * count);
     drawn.normals.resize(3 * count);
     for (std::size_t c = 0; c < count; ++c) {
-        const Vector place = surface.position(surface.corners[c]);
+        const Vector place = position(surface, surface.corners[c]);
         const Vector normal = corner_normal(surface, angles, c, least_cosine);
         for (std::size_t i = 0; i < 3; ++i) {
             drawn.positions[3 * c + i] = static_cast<float>(place[i]);
@@ -222,7 +217,7 @@ Vector place_on_face(const Surface& surface, const Faces& faces, const Roots& ro
     Vector place{};
     const std::size_t first = faces.first[static_cast<std::size_t>(roots.faces[s])];
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector corner = surface.position(faces.corners[first + i]);
+        const Vector corner = position(surface, faces.corners[first + i]);
         const double weight = roots.weights[3 * s + i];
         for (std::size_t k = 0; k < 3; ++k) place[k] += weight * corner[k];
     }
@@ -254,13 +249,34 @@ double root_unit(lissom_context* context, lissom_strands strands, lissom_mesh me
 
 lissom_status draw_mesh(lissom_context* context, lissom_mesh mesh, double crease,
                         DrawnMesh& drawn) {
+    KeptMesh kept;
+    MeshChange change{};
+    return draw_change(context, mesh, crease, kept, drawn, change);
+}
+
+lissom_status draw_change(lissom_context* context, lissom_mesh mesh, double crease, KeptMesh& kept,
+                          DrawnMesh& drawn, MeshChange& change) {
     Surface surface;
-    const lissom_status status = read_surface(context, mesh, surface);
+    lissom_status status = read_surface(context, mesh, surface);
     if (status != LISSOM_OK) return status;
+    const std::int32_t faces = lissom_mesh_face_count(context, mesh);
+    const bool has_same_faces =
+        kept.crease == crease && kept.faces == faces && kept.surface.corners == surface.corners;
+    change = !has_same_faces                               ? MeshChange::all
+             : kept.surface.positions == surface.positions ? MeshChange::none
+                                                           : MeshChange::places;
+    if (change == MeshChange::none) return LISSOM_OK;
+    if (has_same_faces) {
+        surface.first = std::move(kept.surface.first);
+        surface.around = std::move(kept.surface.around);
+    } else {
+        sort_corners(surface);
+        status = put_edges(context, mesh, surface, drawn);
+    }
     find_normals(surface);
-    sort_corners(surface);
     put_corners(surface, std::cos(crease * std::numbers::pi / 180.0), drawn);
-    return put_edges(context, mesh, surface, drawn);
+    kept = {std::move(surface), crease, status == LISSOM_OK ? faces : -1};
+    return status;
 }
 
 }  // namespace lissom::wasm

@@ -1,6 +1,7 @@
 /// The corners of a mesh as WebGL draws them; private to bindings/wasm.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,32 @@ struct DrawnMesh {
 /// Reads a mesh. Faces that meet at more than `crease` degrees keep a sharp edge. Errors: those of
 /// lissom_mesh_read_positions.
 lissom_status draw_mesh(lissom_context* context, lissom_mesh mesh, double crease, DrawnMesh& drawn);
+
+/// A mesh whose faces are triangles by now.
+struct Surface {
+    std::vector<double> positions;
+    std::vector<std::uint32_t> corners;
+    /// Of triangles, of unit length.
+    std::vector<std::array<double, 3>> normals;
+    /// Corners by their vertex: those of vertex v begin at first[v].
+    std::vector<std::uint32_t> first, around;
+};
+
+/// A mesh as it was read last. Before the first reading it is no mesh.
+struct KeptMesh {
+    Surface surface;
+    /// Degrees.
+    double crease = -1.0;
+    std::int32_t faces = -1;
+};
+
+enum class MeshChange { none, places, all };
+
+/// Reads a mesh that may have changed since the reading `kept`, which is then this one. Fills all
+/// lists after a change of faces, positions, normals and vertices after one of places, none
+/// otherwise. Errors: as draw_mesh.
+lissom_status draw_change(lissom_context* context, lissom_mesh mesh, double crease, KeptMesh& kept,
+                          DrawnMesh& drawn, MeshChange& change);
 
 /// Returns the metres of a unit of `mesh`: how much larger the roots of `strands` lie apart than
 /// the places on its faces that they name. 0 if they name none.

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ struct Page {
     lissom_context* context = nullptr;
     lissom_script script{};
     std::string answer;
+    // Meshes that a hand works on, by their numbers.
+    std::map<double, lissom::wasm::KeptMesh> kept;
     std::vector<std::uint8_t> lists[list_count];
 };
 
@@ -119,6 +122,7 @@ EMSCRIPTEN_KEEPALIVE bool page_open(double memory) {
     lissom_context_destroy(page.context);
     page.context = nullptr;
     page.script = {};
+    page.kept.clear();
     lissom_context_options options = lissom_default_context_options();
     options.log = [](void*, lissom_log_level level, const char* text) { give_log(level, text); };
     options.progress = [](void*, const char* label, double fraction) {
@@ -179,6 +183,7 @@ EMSCRIPTEN_KEEPALIVE bool page_call(const char* name, const char* arguments) {
 /// goes on if scripts have it.
 EMSCRIPTEN_KEEPALIVE bool page_release(double id, const char* type) {
     const std::string_view kind(type);
+    page.kept.erase(id);
     if (kind == "lissom.Mesh") return is_done(lissom_mesh_release(page.context, mesh_of(id)));
     if (kind == "lissom.Strands") {
         return is_done(lissom_strands_release(page.context, strands_of(id)));
@@ -202,6 +207,29 @@ EMSCRIPTEN_KEEPALIVE bool page_read_mesh(double id, double crease) {
     keep_list(edges, drawn.edges);
     keep_colors(mesh_of(id));
     return true;
+}
+
+/// Reads a mesh that may have changed since it was read by this function. The answer is 0 for no
+/// change of places and faces, 1 for other places: the lists positions and normals are read, 2 for
+/// other faces: vertices and edges, too. The list colors is read always.
+EMSCRIPTEN_KEEPALIVE bool page_read_change(double id, double crease) {
+    lissom::wasm::DrawnMesh drawn;
+    lissom::wasm::MeshChange change{};
+    const lissom_status status =
+        lissom::wasm::draw_change(page.context, mesh_of(id), crease, page.kept[id], drawn, change);
+    if (!is_done(status)) return false;
+    keep_list(positions, drawn.positions);
+    keep_list(normals, drawn.normals);
+    keep_list(vertices, drawn.vertices);
+    keep_list(edges, drawn.edges);
+    keep_colors(mesh_of(id));
+    page.answer = std::to_string(static_cast<int>(change));
+    return true;
+}
+
+/// From now on a mesh is new to page_read_change.
+EMSCRIPTEN_KEEPALIVE void page_forget_mesh(double id) {
+    page.kept.erase(id);
 }
 
 /// Reads the vertices of a region into the list vertices.

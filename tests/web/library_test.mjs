@@ -15,7 +15,7 @@ if (!fs.existsSync(path.join(folder, 'lissom.wasm'))) {
     console.log('skipped: the preset wasm was not built');
     process.exit(77);
 }
-const { module, log, ask, run } = await openLibrary(folder);
+const { module, log, ask, answer, run } = await openLibrary(folder);
 const cases = [];
 const test = (name, check) => cases.push({ name, check });
 const refused = script => { try { run(script); } catch (error) { return error; } return assert.fail('no error'); };
@@ -35,6 +35,25 @@ return bar:vertex_count() == count, bar:bounds().min[1], bar:self_intersections(
     // The upper end lies at x = -high.
     assert.ok(Math.abs(results[1] + 2) < 1e-3, String(results[1]));
     assert.deepEqual(results[2], []);
+});
+
+test('a mesh that changes is read as if it were new, and told from one that does not', () => {
+    const { results: [bar] } = run('return require("lissom").shapes.bar{ length = 4, width = 1, across = 4, along = 12 }');
+    const bytes = list => module.HEAPU8.slice(module._page_list(list), module._page_list(list) + module._page_list_bytes(list));
+    const read = (name, lists) => { ask(name, bar.object, 50); return lists.map(bytes); };
+    const [positions, normals, vertices, edges] = [0, 1, 2, 3], all = [positions, normals, vertices, edges];
+    const changed = () => { ask('page_read_change', bar.object, 50); return answer(); };
+    assert.deepEqual(read('page_read_change', all), read('page_read_mesh', all));
+    assert.equal(changed(), 0);
+    ask('page_call', 'Mesh.transform', JSON.stringify([{ object: bar.object }, { scale: [1, 2, 1] }]));
+    assert.equal(changed(), 1);
+    assert.deepEqual([positions, normals].map(bytes), read('page_read_mesh', [positions, normals]));
+    ask('page_call', 'Mesh.triangulate', JSON.stringify([{ object: bar.object }]));
+    assert.equal(changed(), 2);
+    assert.deepEqual(all.map(bytes), read('page_read_mesh', all));
+    assert.equal(changed(), 0);
+    module._page_forget_mesh(bar.object);
+    assert.equal(changed(), 2);
 });
 
 test('a head and a cactus merge into one closed surface', () => {

@@ -115,6 +115,7 @@ const receive = {
 // ---- Runs
 
 function run({ quiet = false } = {}) {
+    clearTimeout(state.edits);
     if (running) { again = true; return; }
     running = ++runs;
     started = performance.now();
@@ -238,7 +239,12 @@ function handAnswered(data) {
     if (data.id !== hand.id || running) return;
     busy(false);
     // After a failure of the library itself the script begins anew.
-    if (data.broken) { showFailures(data.failures); startWorker(); run(); return; }
+    if (data.broken) {
+        startWorker();
+        run();
+        showFailures(data.failures);
+        return;
+    }
     if (data.picture) showHand(data);
     showFailures(data.failures);
     hand.last = data;
@@ -590,17 +596,16 @@ async function begin() {
     firstTheme();
     if (embedded) beEmbedded();
     startWorker();
-    let edits = 0;
     editor = new Editor($('editor'), {
         changed() {
             state.changed = true;
             keep();
-            clearTimeout(edits);
+            clearTimeout(state.edits);
             // A typed letter does not undo the work of the hand.
             if (state.steps?.count) $('state').textContent = 'Edited: Run begins anew';
-            else edits = setTimeout(() => run({ quiet: true }), 900);
+            else state.edits = setTimeout(() => { if (!state.steps?.count && !hand?.isBusy) run({ quiet: true }); }, 900);
         },
-        run: () => { clearTimeout(edits); run(); },
+        run: () => run(),
     });
     try {
         view = new View($('canvas'), drawn);

@@ -36,6 +36,8 @@ export class Hand {
 
     get isActive() { return this.tool !== '' && !this.isBlocked(); }
 
+    get isBusy() { return this.pointer !== null || this.isWaiting || this.queue.length > 0; }
+
     // ---- Inputs that wait
 
     put(input) {
@@ -128,6 +130,8 @@ export class Hand {
 
     press(event) {
         this.pointer = event.pointerId;
+        // A view that one works in stays.
+        this.view.touched = true;
         this.put({ kind: 'press', event: { ...this.place(event), button: 'left' } });
     }
 

@@ -109,14 +109,21 @@ export class View {
     // The picture after a tool: parts that are the `same` stay as they are drawn, and the camera as it is.
     update(picture) {
         const old = this.picture || { meshes: [], strands: [] }, known = this.drawn;
-        const kept = (list, drawn, upload) => {
+        const kept = (list, upload) => {
             const before = new Map((old[list] || []).map((one, i) => [one.object, { one, drawn: known[list][i] }]));
-            const now = picture[list].map(one => (one.same && before.get(one.object)) || { one, drawn: upload(one) });
+            const now = picture[list].map(one => {
+                const found = before.get(one.object);
+                if (one.same) return found;
+                // Without flags the faces are the same.
+                if (list === 'strands' || one.flags) return { one, drawn: upload(one) };
+                this.refresh(found.drawn, one);
+                return { one: { ...found.one, ...one }, drawn: found.drawn };
+            });
             const stay = new Set(now.map(one => one.drawn));
             this.free(known[list].filter(one => !stay.has(one)));
             return now;
         };
-        const meshes = kept('meshes', known, mesh => this.uploadMesh(mesh)), strands = kept('strands', known, one => this.uploadStrands(one));
+        const meshes = kept('meshes', mesh => this.uploadMesh(mesh)), strands = kept('strands', one => this.uploadStrands(one));
         if (known.lines) this.free([known.lines]);
         this.drawn = { meshes: meshes.map(one => one.drawn), strands: strands.map(one => one.drawn), lines: this.uploadLines(picture) };
         picture.meshes = meshes.map(({ one }, i) => ({ ...one, raised: picture.meshes[i].raised }));
@@ -171,6 +178,17 @@ export class View {
         this.attribute(slots.a_flags, buffers[3], 1, gl.UNSIGNED_BYTE, false, 0, 0);
         gl.bindVertexArray(null);
         return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity, raised: mesh.raised };
+    }
+
+    // Other places or colours of a mesh that is drawn.
+    refresh(drawn, mesh) {
+        const gl = this.gl;
+        [mesh.positions, mesh.normals, mesh.colors].forEach((values, i) => {
+            if (!values) return;
+            gl.bindBuffer(gl.ARRAY_BUFFER, drawn.buffers[i]);
+            gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+        });
+        drawn.place = mesh.place || identity;
     }
 
     // Two vertices a point, which know the points before and after theirs.

@@ -119,25 +119,39 @@ function vertexColors(drawn, picture, count, own) {
     return { colors, range };
 }
 
-function meshOf(drawn, picture, creaseFree) {
-    const id = drawn.mesh.object;
-    ask('page_read_mesh', ['number', 'number'], [id, picture.crease ?? (creaseFree ? 180 : 50)]);
-    const positions = list('positions', kFloat), normals = list('normals', kFloat), vertices = list('vertices', kInt);
-    const edges = list('edges', kByte), own = list('colors', kFloat);
-    let count = 0;
+// Colours of corners, of the mesh whose lists were read last.
+function cornerColors(drawn, picture, vertices) {
+    const own = list('colors', kFloat), stored = lissom._page_vertex_count(drawn.mesh.object);
+    let count = stored;
     for (const v of vertices) if (v >= count) count = v + 1;
-    const stored = lissom._page_vertex_count(id);
-    const { colors: perVertex, range } = vertexColors(drawn, picture, Math.max(count, stored), own);
-    const colors = new kByte(4 * vertices.length), flags = new kByte(vertices.length);
+    const { colors: perVertex, range } = vertexColors(drawn, picture, count, own), colors = new kByte(4 * vertices.length);
     for (let c = 0; c < vertices.length; ++c) {
-        const v = 3 * vertices[c], t = c - c % 3;
+        const v = 3 * vertices[c];
         colors[4 * c] = perVertex[v]; colors[4 * c + 1] = perVertex[v + 1]; colors[4 * c + 2] = perVertex[v + 2];
+    }
+    return { colors, range };
+}
+
+// Of each corner the edges of its triangle that are edges of a face, a bit each.
+function edgeFlags(edges) {
+    const flags = new kByte(edges.length);
+    for (let c = 0; c < edges.length; ++c) {
+        const t = c - c % 3;
         flags[c] = edges[t] | edges[t + 1] << 1 | edges[t + 2] << 2;
     }
-    const place = placeOf(drawn);
-    return { object: id, positions, normals, colors, flags, place, caption: drawn.caption, box: boxOf(positions, place), range,
+    return flags;
+}
+
+const creaseOf = (picture, creaseFree) => picture.crease ?? (creaseFree ? 180 : 50);
+const countsOf = id => ({ vertexCount: lissom._page_vertex_count(id), faceCount: lissom._page_face_count(id) });
+
+function meshOf(drawn, picture, creaseFree) {
+    const id = drawn.mesh.object;
+    ask('page_read_mesh', ['number', 'number'], [id, creaseOf(picture, creaseFree)]);
+    const positions = list('positions', kFloat), normals = list('normals', kFloat), place = placeOf(drawn);
+    return { object: id, positions, normals, flags: edgeFlags(list('edges', kByte)), place, caption: drawn.caption, box: boxOf(positions, place),
         legend: (drawn.parts || []).filter(part => part.name).map(part => ({ name: part.name, color: part.color })),
-        vertexCount: stored, faceCount: lissom._page_face_count(id) };
+        ...cornerColors(drawn, picture, list('vertices', kInt)), ...countsOf(id) };
 }
 
 function boundaryLines(id) {
@@ -211,15 +225,45 @@ function drawnPicture(picture) {
 function buffersOf(picture) {
     const given = list => list.filter(one => !one.same);
     return [...given(picture.meshes).flatMap(m => [m.positions, m.normals, m.colors, m.flags]),
-        ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].map(list => list.buffer);
+        ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].filter(Boolean).map(list => list.buffer);
 }
 
 // ---- Tools: the picture after inputs of a hand; the page has its parts of the same key already
 
-const held = { isLoaded: false, keys: new Map(), objects: new Map() };
-
+// Keys that the page has, numbers of objects, and corners of meshes by their numbers; the head below hair.
+const held = {};
 function forgetHand() {
-    Object.assign(held, { isLoaded: false, keys: new Map(), objects: new Map() });
+    Object.assign(held, { isLoaded: false, keys: new Map(), objects: new Map(), corners: new Map(), head: null });
+}
+forgetHand();
+
+function forgetMesh(id) {
+    held.corners.delete(id);
+    lissom._page_forget_mesh(id);
+}
+function forgetPicture() {
+    held.keys.clear();
+    for (const id of [...held.corners.keys()]) forgetMesh(id);
+}
+
+// Of a mesh that the page has already the lists that are others now.
+function changedMesh(drawn, picture, creaseFree) {
+    const id = drawn.mesh.object;
+    ask('page_read_change', ['number', 'number'], [id, creaseOf(picture, creaseFree)]);
+    const change = answer(), mesh = { object: id, place: placeOf(drawn), legend: [], ...countsOf(id) };
+    if (change === 2) held.corners.set(id, list('vertices', kInt));
+    if (change === 2) mesh.flags = edgeFlags(list('edges', kByte));
+    if (change > 0) Object.assign(mesh, { positions: list('positions', kFloat), normals: list('normals', kFloat) });
+    if (change > 0) mesh.box = boxOf(mesh.positions, mesh.place);
+    return { ...mesh, ...cornerColors(drawn, picture, held.corners.get(id)) };
+}
+
+// The places of the head, for the light in hair.
+function headOf(drawn) {
+    if (held.head?.key === drawn.key) return held.head;
+    ask('page_read_mesh', ['number', 'number'], [drawn.mesh.object, 180]);
+    held.head = { key: drawn.key, object: drawn.mesh.object, positions: list('positions', kFloat) };
+    return held.head;
 }
 
 // Numbers of objects in a result, and their types.
@@ -236,6 +280,7 @@ function releaseAllBut(objects) {
     for (const [id, type] of held.objects) {
         if (objects.has(id)) continue;
         held.keys.delete(id);
+        forgetMesh(id);
         if (!pictures.has(id)) ask('page_release', ['number', 'string'], [id, type]);
     }
     held.objects = objects;
@@ -254,11 +299,8 @@ const rowOf = value => (Array.isArray(value) ? value : []);
 function handPicture(picture) {
     const all = rowOf(picture.meshes), hair = rowOf(picture.strands);
     const isSmooth = hair.length > 0 && picture.crease === undefined;
-    const meshes = all.map(one => ({ ...unlessKnown(one.mesh.object, one.key, () => meshOf(one, picture, isSmooth)), raised: one.raised }));
-    // The light in hair needs the head below, known or not.
-    const head = hair.some(one => held.keys.get(one.strands.object) !== one.key) && all[0]
-        ? meshes[0].same ? meshOf(all[0], picture, isSmooth) : meshes[0] : null;
-    const strands = hair.map(one => unlessKnown(one.strands.object, one.key, () => strandsOf(one.strands, picture, head)));
+    const meshes = all.map(one => ({ ...unlessKnown(one.mesh.object, one.key, () => changedMesh(one, picture, isSmooth)), raised: one.raised }));
+    const strands = hair.map(one => unlessKnown(one.strands.object, one.key, () => strandsOf(one.strands, picture, all[0] && headOf(all[0]))));
     const lines = rowOf(picture.lines).map(points => ({ color: 'orange', points: points.flat() }));
     return { meshes, strands, lines, wire: picture.wire, flat: picture.flat };
 }
@@ -274,12 +316,13 @@ function hand(message) {
             load('return playground.hand(...)', 'hand');
             held.isLoaded = true;
         }
-        if (message.fresh) held.keys.clear();
+        if (message.fresh) forgetPicture();
         const [{ picture, ...seen }] = runLoaded(JSON.stringify([message.at + 1, message.inputs]));
         Object.assign(reply, seen, { picture: handPicture(picture), keys: [...rowOf(picture.meshes), ...rowOf(picture.strands)].map(one => one.key.split('|')[0]) });
         releaseAllBut(objectsIn(picture));
         buffers = [...buffersOf(reply.picture)];
     } catch (error) {
+        forgetPicture();
         reply.failures = [error.refusal || { code: 'internal', message: String(error.message || error) }];
         if (!error.refusal) reply.broken = true;
     }
