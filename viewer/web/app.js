@@ -261,6 +261,7 @@ function showFailures(failures) {
 function showHand(data) {
     Object.assign(state, { marks: data.marks, steps: data.steps });
     state.picture = view.update(data.picture);
+    askMarks();
     if (data.camera) view.seeBy(data.camera);
     showCounts(state.picture);
     $('legend').hidden = true;
@@ -320,16 +321,26 @@ function listenForHand() {
     hand.isBlocked = () => running !== 0 || !state.isLive || !state.reply?.picture;
     Object.defineProperty(hand, 'at', { get: () => state.reply.at });
     fillToolbar($('toolbar'), { take: takeTool, travel: kind => hand.travel(kind) });
-    $('canvas').addEventListener('pointerleave', () => { hand.isAway = true; view.ask(); });
+    $('canvas').addEventListener('pointerleave', () => { hand.isAway = true; askMarks(); });
     $('canvas').addEventListener('pointerdown', () => { $('canvas').focus({ preventScroll: true }); $('hand').dataset.read = ''; });
     document.addEventListener('keydown', takeKey);
+}
+
+// The marks alone, in the next frame: a picture with hair takes longer.
+function askMarks() {
+    if (!state.marksAsked && !view.asked) state.marksAsked = requestAnimationFrame(showMarks);
+}
+
+function showMarks() {
+    state.marksAsked = 0;
+    drawMarks($('marks'), state.marks, { project: (x, y, z) => view.project(x, y, z), isAway: hand.isAway, ...covered() });
 }
 
 // After each frame of the picture.
 function drawn(cells) {
     showCaptions(cells);
     if (!hand) return;
-    drawMarks($('marks'), state.marks, { project: (x, y, z) => view.project(x, y, z), isAway: hand.isAway, ...covered() });
+    showMarks();
     hand.drawn();
 }
 

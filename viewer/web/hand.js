@@ -31,6 +31,7 @@ export class Hand {
 
     // A new document: inputs that wait are for the one before.
     reset() {
+        this.view.moving = false;
         Object.assign(this, { queue: [], isWaiting: false, isFresh: true, pointer: null, finger: null, look: '', inHand: '' });
     }
 
@@ -110,7 +111,10 @@ export class Hand {
 
     travel(kind) { this.letGo(); this.put({ kind }); }
 
-    letGo() { this.pointer = this.finger = null; }
+    letGo() {
+        if (this.pointer !== null) { this.view.moving = false; this.view.ask(); }
+        this.pointer = this.finger = null;
+    }
 
     // ---- Pointers; each function returns whether the event was the tool's
 
@@ -130,8 +134,8 @@ export class Hand {
 
     press(event) {
         this.pointer = event.pointerId;
-        // A view that one works in stays.
-        this.view.touched = true;
+        // A view that one works in stays; meanwhile hair is drawn as when it turns.
+        this.view.touched = this.view.moving = true;
         this.put({ kind: 'press', event: { ...this.place(event), button: 'left' } });
     }
 
@@ -179,7 +183,7 @@ export class Hand {
         if (this.finger?.first.pointerId === event.pointerId) this.pressFinger();
         if (this.pointer !== event.pointerId) return false;
         if (event.pointerType !== 'touch' && event.button !== 0 && event.type === 'pointerup') return true;
-        this.pointer = null;
+        this.letGo();
         if (event.type === 'pointercancel') this.put({ kind: 'cancel' }); else this.put({ kind: 'release', event: this.place(event) });
         if (event.pointerType === 'touch') this.isAway = true;
         return true;

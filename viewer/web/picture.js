@@ -109,6 +109,8 @@ export class View {
     // The picture after a tool: parts that are the `same` stay as they are drawn, and the camera as it is.
     update(picture) {
         const old = this.picture || { meshes: [], strands: [] }, known = this.drawn;
+        const isSame = list => picture[list].length === old[list].length && picture[list].every(one => one.same);
+        if (!old.columns && isSame('meshes') && isSame('strands') && !picture.lines.length && !known.lines) return old;
         const kept = (list, upload) => {
             const before = new Map((old[list] || []).map((one, i) => [one.object, { one, drawn: known[list][i] }]));
             const now = picture[list].map(one => {
