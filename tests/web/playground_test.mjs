@@ -351,6 +351,36 @@ test('with the tool deform a hand bends a bar; undo brings it back to the bit, r
     await page.close();
 });
 
+test('an error of a tool is told, and keys are the hand\'s after a click on a button', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    await take(page, 'select');
+    await stroke(page, [await pixel(page, [0, 0, 0.5]), await pixel(page, [0.2, 0, 0.5])]);
+    const some = (await answered(page)).keys[0];
+    await page.evaluate(() => [...document.querySelectorAll('#keys button')].find(one => one.textContent === 'Grow').focus());
+    await page.click('#keys button:last-child');
+    assert.notEqual((await answered(page)).keys[0], some);
+    assert.notEqual((await press(page, 'i')).keys[0], some);
+    // No tool makes this error: a value that the select tool lacks.
+    const before = (await answered(page)).keys[0];
+    await page.evaluate(() => window.lissomHand.put({ kind: 'set', name: 'raduis', value: 3 }));
+    const refused = await answered(page);
+    assert.match(refused.failures[0].message, /raduis/);
+    assert.equal(refused.keys[0], before);
+    assert.match(await page.$eval('#console .error', node => node.textContent), /raduis/);
+    await page.close();
+});
+
+test('a frame in another page has no tools, and its picture is the same', async () => {
+    const page = await browser.newPage();
+    page.on('pageerror', error => troubles.push(String(error)));
+    await page.goto(`${address}?embed#bend`);
+    await runs(page, 1);
+    assert.equal((await last(page)).ok, true);
+    assert.equal(await page.$eval('#toolbar', bar => bar.getBoundingClientRect().width), 0);
+    await page.close();
+});
+
 test('undo and redo go by the letter of the layout', async () => {
     const page = await opened();
     await handIn(page, bar, { toward: [0, 0, 1] });

@@ -295,7 +295,7 @@ function takeTool(name) {
     hand.take(name);
 }
 
-const isTyped = target => target.closest?.('input, select, textarea, .cm-editor, [contenteditable]');
+const isTyped = target => target.closest?.('input:not([type=range], [type=checkbox]), select, textarea, .cm-editor, [contenteditable]');
 
 // Keys that no field has are the hand's.
 function takeKey(event) {
@@ -324,6 +324,8 @@ function listenForHand() {
     $('canvas').addEventListener('pointerleave', () => { hand.isAway = true; askMarks(); });
     $('canvas').addEventListener('pointerdown', () => { $('canvas').focus({ preventScroll: true }); $('hand').dataset.read = ''; });
     document.addEventListener('keydown', takeKey);
+    // After a click the keys are the tool's; after Enter on a button they stay there.
+    for (const box of ['toolbar', 'keys']) $(box).addEventListener('click', event => { if (event.detail > 0) $('canvas').focus({ preventScroll: true }); });
 }
 
 // The marks alone, in the next frame: a picture with hair takes longer.
