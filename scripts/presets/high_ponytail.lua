@@ -9,7 +9,7 @@ return styling.preset(..., {
     name = "high_ponytail",
     edge = "tied",
     schema = {
-        height = { type = "number", default = 42, min = 32, max = 50, unit = "degrees",
+        height = { type = "number", default = 50, min = 32, max = 50, unit = "degrees",
             help = "elevation of the tie" },
         length = { type = "number", default = 0.28, min = 0.1, max = 0.5, unit = "metres",
             help = "of the tail" },

@@ -14,7 +14,7 @@ local styling = require "styling"
 local ponytail = {}
 
 ponytail.schema = {
-    height = { type = "number", default = 25, min = -15, max = 50, unit = "degrees",
+    height = { type = "number", default = 6, min = -15, max = 50, unit = "degrees",
         help = "elevation of the tie; 0 is level with the middle of the head" },
     side = { type = "number", default = 0, min = -1, max = 1,
         help = "0 behind, 1 at the left, -1 at the right" },
