@@ -371,6 +371,17 @@ test('an error of a tool is told, and keys are the hand\'s after a click on a bu
     await page.close();
 });
 
+test('a brush smooths the surface', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0.5, 0.2, 0.84] });
+    const before = await take(page, 'smooth'), edge = await farthest(page, [1, 0, 1], [-9, -0.1, -9], [9, 0.1, 9]);
+    const after = await stroke(page, [await pixel(page, edge), await pixel(page, [edge[0], edge[1] + 0.3, edge[2]])]);
+    assert.notEqual(after.keys[0], before.keys[0]);
+    assert.equal(after.steps.undo, 'smooth');
+    assert.equal((await press(page, 'z', ['Control'])).keys[0], before.keys[0]);
+    await page.close();
+});
+
 test('a frame in another page has no tools, and its picture is the same', async () => {
     const page = await browser.newPage();
     page.on('pageerror', error => troubles.push(String(error)));
@@ -440,6 +451,11 @@ test('streams, a parting and a tail are drawn on a head, and its hair follows', 
     assert.equal(one.keys[0], head.keys[0]);
     assert.match(await page.$eval('#counts', node => node.textContent), /5,000 strands/);
     await shot(page, 'hand_stream');
+    await take(page, 'comb');
+    const combed = await stroke(page, [[crown[0] + 60, crown[1] + 60], [crown[0] + 100, crown[1] + 120], [crown[0] + 170, crown[1] + 190]]);
+    assert.deepEqual(combed.failures, []);
+    assert.notEqual(combed.keys[1], two.keys[1]);
+    assert.equal((await press(page, 'z', ['Control'])).keys[1], two.keys[1]);
     await take(page, 'parting');
     const parted = await stroke(page, [[crown[0] + 8, crown[1] + 34], [crown[0] + 5, crown[1] + 8]]);
     assert.deepEqual(parted.failures, []);
