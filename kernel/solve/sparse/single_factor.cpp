@@ -150,10 +150,7 @@ SingleFactor::SingleFactor(Supernodes supernodes, std::vector<Index> permutation
 // postordered; otherwise everything counts as the upper part.
 void SingleFactor::split() {
     const Index count = nodes_.count();
-    std::vector<Index> node_of(permutation_.size()), parent(count);
-    for (Index s = 0; s < count; ++s) {
-        for (Index c = nodes_.super[s]; c < nodes_.super[s + 1]; ++c) node_of[c] = s;
-    }
+    const std::vector<Index>& parent = nodes_.parent;
     std::vector<Index> first(count), members(first.size(), 1);
     std::vector<std::size_t> work(first.size(), 0);
     bool postordered = true;
@@ -164,9 +161,7 @@ void SingleFactor::split() {
         work[s] += own;
         total += own;
         postordered = postordered && s - first[s] + 1 == members[s];
-        const bool is_root = nodes_.height(s) == nodes_.columns(s);
-        parent[s] = is_root ? count : node_of[nodes_.row[nodes_.first_row[s] + nodes_.columns(s)]];
-        if (is_root) continue;
+        if (parent[s] == count) continue;
         work[parent[s]] += work[s];
         members[parent[s]] += members[s];
         first[parent[s]] = std::min(first[parent[s]], first[s]);

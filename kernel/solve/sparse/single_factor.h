@@ -36,9 +36,10 @@ class SingleFactor {
 
     /// Supernode s holds the columns [super[s], super[s + 1])
     /// as one dense column-major block at value[first_value[s]], of the rows [first_row[s],
-    /// first_row[s + 1]) of `row`. Values are divided by `scale`.
+    /// first_row[s + 1]) of `row`. Its parent, or count(), has all rows below its columns. Values
+    /// are divided by `scale`.
     struct Supernodes {
-        std::vector<Index> super, first_row, first_value, row;
+        std::vector<Index> super, first_row, first_value, row, parent;
         std::vector<float> value;
         double scale = 1.0;
 

@@ -21,6 +21,8 @@ struct FactorStats {
     std::size_t factor_nonzeros = 0, factor_bytes = 0;
     /// The part of factor_bytes that `analyze` has charged.
     std::size_t analysis_bytes = 0;
+    /// Supernodes, and those that the last factorisation computed.
+    Index supernodes = 0, computed_supernodes = 0;
     /// Further bytes that `factor` takes while it runs.
     std::size_t working_bytes = 0;
     double analyze_seconds = 0, factor_seconds = 0;
@@ -46,6 +48,14 @@ class SparseSystem {
     /// Errors: not_positive_definite, naming one row of a component without a constraint if there
     /// is one; memory_limit; invalid_argument if the pattern differs; cancelled.
     void factor(const SymmetricMatrix& matrix, const Context& context = {});
+    /// Factors a matrix over a part of the unknowns analysed: its row i is unknown part[i], which
+    /// ascend, and its entries have to be among those analysed. `size` is then that of the part.
+    /// Called again, it factors only what depends on columns that have changed, to the same bits as
+    /// a system without a factor. Keeps more memory for that than `factor` does. Errors: as
+    /// `factor`.
+    void factor_part(const SymmetricMatrix& matrix, std::span<const Index> part,
+                     const Context& context = {});
+
     /// Solves A x = b for `columns` right-hand sides stored one after the other; x may be b.
     /// Errors: invalid_argument without a factor or if sizes differ.
     void solve(std::span<const double> b, std::span<double> x, Index columns) const;
@@ -61,6 +71,7 @@ class SparseSystem {
     /// memory_limit.
     SingleFactor single_factor(const Context& context = {}) const;
 
+    /// Number of unknowns of a solve.
     Index size() const;
     bool factored() const;
     const FactorStats& stats() const;

@@ -80,19 +80,19 @@ std::size_t max_chunks(const FactorPlan& plan) {
 
 class Factorization {
   public:
-    Factorization(const Supernodes& nodes, const FactorPlan& plan, const SymmetricMatrix& matrix,
-                  double* value, Processor processor)
-        : nodes_(nodes),
-          plan_(plan),
-          matrix_(matrix),
-          value_(value),
+    Factorization(const FactorTask& task, Processor processor)
+        : task_(task),
+          nodes_(task.nodes),
+          plan_(task.plan),
+          value_(task.value),
           kernels_(dense_kernels(processor)) {
         std::size_t end = 0;
-        for (const FactorPlan::Subtree& t : plan.subtrees) {
+        for (const FactorPlan::Subtree& t : plan_.subtrees) {
             first_extension_.push_back(end);
             end += t.above.size() * t.above.size();
         }
-        extensions_ = large_array<double>(end);
+        if (!task.extensions) own_extensions_ = large_array<double>(end);
+        extensions_ = task.extensions ? task.extensions : own_extensions_.get();
     }
 
     Index run(const Context& context) {
@@ -100,6 +100,7 @@ class Factorization {
         if (failed != kNoIndex) return failed;
         BlockExecutor crew(nodes_.size(), plan_.tallest, max_chunks(plan_), &context);
         for (std::size_t i = 0; failed == kNoIndex && i < plan_.top.size(); ++i) {
+            if (!is_changed(plan_.top[i])) continue;
             context.checkpoint();
             failed = factor_node(plan_.top[i], crew);
         }
@@ -107,6 +108,9 @@ class Factorization {
     }
 
   private:
+    bool is_changed(Index s) const { return !task_.changed || task_.changed[s]; }
+    bool is_idle(Index s) const { return task_.idle && task_.idle[s]; }
+
     // Failures are compared after all bins have ended, so that the reported one does not depend on
     // their order.
     Index factor_subtrees(const Context& context) {
@@ -125,7 +129,10 @@ class Factorization {
         BlockExecutor alone(nodes_.size(), plan_.tallest, 1, nullptr);
         for (const Index t : plan_.bins[bin]) {
             const FactorPlan::Subtree& subtree = plan_.subtrees[t];
+            // Its root is above all others.
+            if (!is_changed(subtree.last - 1)) continue;
             for (Index s = subtree.first; s < subtree.last; ++s) {
+                if (!is_changed(s)) continue;
                 context.checkpoint();
                 const Index failed = factor_node(s, alone);
                 if (failed != kNoIndex) return failed;
@@ -146,14 +153,15 @@ class Factorization {
         const std::size_t t = b - nodes_.count();
         const std::vector<Index>& above = plan_.subtrees[t].above;
         const auto size = count_of(above);
-        return {above.data(), size, size, extensions_.get() + first_extension_[t]};
+        return {above.data(), size, size, extensions_ + first_extension_[t]};
     }
 
     Index factor_node(Index s, BlockExecutor& crew) {
+        if (is_idle(s)) return kNoIndex;
         const Block node = block(s);
         std::fill(node.value, node.entry(0, node.columns), 0.0);
         for (Index e = plan_.first_entry[s]; e < plan_.first_entry[s + 1]; ++e) {
-            value_[plan_.entries[e].target] = matrix_.value[plan_.entries[e].source];
+            value_[plan_.entries[e].target] = task_.matrix[plan_.entries[e].source];
         }
         update(s, node, crew);
         const Index failed = eliminate(node, crew);
@@ -169,6 +177,8 @@ class Factorization {
                      const Index begin = chunk * kUpdateColumns;
                      const Index end = std::min(begin + kUpdateColumns, target.columns);
                      for (Index u = plan_.first_update[b]; u < plan_.first_update[b + 1]; ++u) {
+                         const Index from = plan_.updates[u].from;
+                         if (from < nodes_.count() && is_idle(from)) continue;
                          update_columns(target, begin, end, plan_.updates[u], crew.position.get(),
                                         scratch);
                      }
@@ -265,13 +275,14 @@ class Factorization {
         });
     }
 
+    const FactorTask& task_;
     const Supernodes& nodes_;
     const FactorPlan& plan_;
-    const SymmetricMatrix& matrix_;
     double* value_;
     DenseKernels kernels_;
     std::vector<std::size_t> first_extension_;
-    std::unique_ptr<double[]> extensions_;
+    std::unique_ptr<double[]> own_extensions_;
+    double* extensions_;
 };
 
 }  // namespace
@@ -283,10 +294,8 @@ std::size_t factoring_bytes(const Supernodes& nodes, const FactorPlan& plan) {
            (bins + max_chunks(plan)) * chunk;
 }
 
-Index factor_supernodes(const Supernodes& nodes, const FactorPlan& plan,
-                        const SymmetricMatrix& matrix, double* value, Processor processor,
-                        const Context& context) {
-    return Factorization(nodes, plan, matrix, value, processor).run(context);
+Index factor_supernodes(const FactorTask& task, Processor processor, const Context& context) {
+    return Factorization(task, processor).run(context);
 }
 
 }  // namespace lissom

@@ -7,8 +7,10 @@ namespace {
 
 LISSOM_INLINE void solve_both(const SupernodalFactor& factor, Lanes<double>* x,
                               Lanes<double>* below) {
-    for (Index s = 0; s < factor.supernodes; ++s) solve_lower(factor.view, s, x, below);
-    for (Index s = factor.supernodes; s-- > 0;) solve_upper(factor.view, s, x, below);
+    for (const Index s : factor.supernodes) solve_lower(factor.view, s, x, below);
+    for (std::size_t i = factor.supernodes.size(); i-- > 0;) {
+        solve_upper(factor.view, factor.supernodes[i], x, below);
+    }
 }
 
 void solve_anywhere(const SupernodalFactor& factor, Lanes<double>* x, Lanes<double>* below) {
@@ -26,13 +28,14 @@ LISSOM_AVX2 void solve_with_avx2(const SupernodalFactor& factor, Lanes<double>* 
 
 void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x, Index columns,
                       std::vector<double>& scratch) {
-    const std::size_t n = factor.size;
+    const std::size_t n = at(factor.size), rows = at(factor.rows);
     scratch.resize(2 * kSolveWidth * n);
     double* solution = scratch.data();
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t from = factor.permutation[i];
+        const Index from = factor.permutation[i];
         for (Index c = 0; c < kSolveWidth; ++c) {
-            solution[i * kSolveWidth + c] = c < columns ? b[c * n + from] : 0.0;
+            const bool known = c < columns && from != kNoIndex;
+            solution[i * kSolveWidth + c] = known ? b[at(c) * rows + at(from)] : 0.0;
         }
     }
     auto* lanes = reinterpret_cast<Lanes<double>*>(solution);
@@ -46,9 +49,10 @@ void solve_supernodal(const SupernodalFactor& factor, const double* b, double* x
     solve_anywhere(factor, lanes, lanes + n);
 #endif
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t to = factor.permutation[i];
+        const Index to = factor.permutation[i];
+        if (to == kNoIndex) continue;
         for (Index c = 0; c < columns; ++c) {
-            x[c * n + to] = solution[i * kSolveWidth + c];
+            x[at(c) * rows + at(to)] = solution[i * kSolveWidth + c];
         }
     }
 }

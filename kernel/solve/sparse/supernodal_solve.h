@@ -3,6 +3,7 @@
 /// stay in registers.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernel/core/geometry.h"
@@ -10,9 +11,11 @@
 
 namespace lissom {
 
-/// A supernodal factor and the unknown of each row of L.
+/// A supernodal factor of `size` rows for solutions of `rows` unknowns: the supernodes that take
+/// part, ascending, and the unknown of each row of L, or kNoIndex for those that take none.
 struct SupernodalFactor {
-    Index size = 0, supernodes = 0;
+    Index size = 0, rows = 0;
+    std::span<const Index> supernodes;
     SupernodalView<double> view;
     const Index* permutation = nullptr;
 };

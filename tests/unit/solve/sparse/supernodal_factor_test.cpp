@@ -21,8 +21,9 @@ Factored supernodal_factored(const SymmetricMatrix& a, Processor processor,
                              const Context& context = {}) {
     Factored f{analyze_supernodes(a), {}, kNoIndex};
     f.value.assign(f.nodes.value_count(), std::nan(""));
+    const FactorPlan plan = plan_factor(f.nodes, a);
     f.failed =
-        factor_supernodes(f.nodes, plan_factor(f.nodes, a), a, f.value.data(), processor, context);
+        factor_supernodes({f.nodes, plan, a.value.data(), f.value.data()}, processor, context);
     return f;
 }
 
