@@ -116,8 +116,7 @@ const Context& context_of(const Deformer& deformer) {
 const std::shared_ptr<const Preparation>& Deformer::State::prepare(const Context& given) {
     if (!preparation || preparation->rest != rest || preparation->constraints != constraints) {
         complete();
-        preparation.reset();
-        auto next = prepare_deformation(rest, constraints, given);
+        auto next = prepare_next(preparation, rest, constraints, given);
         const Index count = costs.factorizations;
         costs = next->costs;
         costs.factorizations += count;
@@ -148,7 +147,13 @@ const std::shared_ptr<const DeformFrame>& Deformer::State::complete() {
 
 std::shared_ptr<const Preparation> Deformer::prepare(const Context& context) {
     return with_memory_errors([&] {
-        const auto& prepared = state_->prepare(state_->chosen(context));
+        const Context& chosen = state_->chosen(context);
+        Progress progress(chosen, "deform: prepare");
+        progress.step(0.85);
+        const auto& prepared = state_->prepare(chosen);
+        progress.step(0.15);
+        const ImplicitMethod* method = prepared->implicit();
+        if (method && method->solution) method->solution->find_all_weights(chosen);
         (void)target_rhs(prepared, state_->poses.targets, state_->scratch.state().asked);
         return prepared;
     });
@@ -209,6 +214,8 @@ DeformStats stats_of(const Deformer& deformer) {
     const RestShape& rest = *s.rest;
     const auto& handles = s.constraints->handles;
     DeformStats stats = s.costs;
+    const ImplicitMethod* method = s.preparation ? s.preparation->implicit() : nullptr;
+    if (method && method->solution) stats.basis_seconds = method->solution->seconds();
     stats.region_vertices = rest.region().size();
     stats.zero_area_faces = rest.patch().zero_area_faces;
     stats.inserted_vertices = rest.patch().first_normal_point() - rest.patch().real_count;

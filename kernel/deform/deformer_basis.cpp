@@ -235,6 +235,7 @@ HandleBasis basis_of(Deformer& deformer, const Context& given) {
         add_known(motion, basis);
         add_loose(motion, basis);
         if (motion.method().solution) {
+            motion.solution().find_all_weights(context);
             add_free(motion, basis);
             add_followers(motion, context, basis);
         }

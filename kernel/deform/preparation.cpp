@@ -89,19 +89,45 @@ Vec3 start_of_sequence(const RestShape& rest, const ConstraintSet& constraints) 
     return Vec3::Zero();
 }
 
+// Systems of a preparation that ends, for the next one.
+class FormerSystems {
+  public:
+    explicit FormerSystems(std::shared_ptr<const Preparation> former) {
+        if (!former || former.use_count() > 1 || !former->implicit()) return;
+        first = former->implicit()->first->release();
+        second = former->implicit()->second->release();
+        ended_ = std::move(former);
+    }
+
+    // For a preparation of the same patch and options.
+    FormerAssembly assembly(const Preparation& next) const {
+        if (!ended_ || ended_->work != next.work || ended_->rest->scope != next.rest->scope)
+            return {};
+        const ImplicitMethod& method = *ended_->implicit();
+        return {method.first.get(), &method.gradients, &ended_->known};
+    }
+    void release_assembly() { ended_.reset(); }
+
+    OrderedSystem first, second;
+
+  private:
+    std::shared_ptr<const Preparation> ended_;
+};
+
 // Factors `system` if it has unknowns.
 template <typename System>
-void factor(System& system, const Patch& patch, const Context& context) {
+void factor(System& system, OrderedSystem former, const Patch& patch, const Context& context) {
     if (system.free_vertices().empty()) return;
     try {
-        system.factor(context);
+        system.factor(context, std::move(former));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::not_positive_definite) throw;
         refuse_singular(patch, error, system.free_vertices());
     }
 }
 
-void assemble(Preparation& next, ImplicitMethod& method, const Context& context) {
+void assemble(Preparation& next, ImplicitMethod& method, const FormerAssembly& former,
+              const Context& context) {
     const DeformOptions& options = next.rest->options();
     const MemoryCharge charge = charge_hubs(next.patch(), next.rings(), context);
     method.gradients = make_gradients(next.patch(), next.rings(), next.work->geometry, next.known,
@@ -109,8 +135,8 @@ void assemble(Preparation& next, ImplicitMethod& method, const Context& context)
     context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
         for (Index system = begin; system < end; ++system) {
             if (system == 0) {
-                method.first = std::make_unique<GradientSystem>(*next.work, method.gradients,
-                                                                next.known, options, context);
+                method.first = std::make_unique<GradientSystem>(
+                    *next.work, method.gradients, next.known, options, context, former);
             } else {
                 method.second = std::make_unique<RotationSystem>(*next.work, next.known.position,
                                                                  options, context);
@@ -133,7 +159,7 @@ void number_frame(const Preparation& next, ImplicitMethod& method) {
 }
 
 void count_costs(Preparation& next, const ImplicitMethod& method) {
-    const FactorStats &first = method.first->stats(), &second = method.second->stats();
+    const FactorStats first = method.first->stats(), &second = method.second->stats();
     DeformStats& stats = next.costs;
     stats.free_vertices = count_of(method.second->free_vertices());
     for (const Index v : next.patch().of_region) {
@@ -152,32 +178,32 @@ void count_costs(Preparation& next, const ImplicitMethod& method) {
     stats.factorizations = stats.free_vertices > 0 ? 1 : 0;
 }
 
-void prepare_implicit(Preparation& next, Progress& progress, const Context& context) {
+void prepare_implicit(Preparation& next, FormerSystems former, Progress& progress,
+                      const Context& context) {
     ImplicitMethod& method = next.method.emplace<ImplicitMethod>();
-    progress.step(0.2);
+    progress.step(0.25);
     const auto start = Clock::now();
-    assemble(next, method, context);
+    assemble(next, method, former.assembly(next), context);
+    former.release_assembly();
     next.costs.assemble_seconds = seconds_since(start);
 
-    progress.step(0.6);
+    progress.step(0.65);
     // The two do not depend on each other.
     context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
         for (Index system = begin; system < end; ++system) {
-            system == 0 ? factor(*method.first, next.patch(), context)
-                        : factor(*method.second, next.patch(), context);
+            system == 0 ? factor(*method.first, std::move(former.first), next.patch(), context)
+                        : factor(*method.second, std::move(former.second), next.patch(), context);
         }
     });
     progress.step(0.05);
     if (!method.second->free_vertices().empty()) method.second->finish(context);
 
-    progress.step(0.15);
-    const auto basis_start = Clock::now();
+    progress.step(0.05);
     number_frame(next, method);
     if (!method.frame_row.empty()) {
         method.solution = std::make_unique<LinearSolution>(next.problem(), context);
     }
     count_costs(next, method);
-    next.costs.basis_seconds = seconds_since(basis_start);
 }
 
 }  // namespace
@@ -185,22 +211,37 @@ void prepare_implicit(Preparation& next, Progress& progress, const Context& cont
 std::shared_ptr<const Preparation> prepare_deformation(
     std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
     const Context& context) {
+    std::shared_ptr<const Preparation> none;
+    return prepare_next(none, std::move(rest), std::move(constraints), context);
+}
+
+std::shared_ptr<const Preparation> prepare_next(std::shared_ptr<const Preparation>& former,
+                                                std::shared_ptr<const RestShape> rest,
+                                                std::shared_ptr<const ConstraintSet> constraints,
+                                                const Context& context) {
     require(rest && constraints, "a preparation needs a rest shape and holds");
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());
     require_plain_holds(*constraints, rest->options());
-    // Stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
-    constexpr std::size_t kBytesPerVertex = 1000;
     auto next = std::make_shared<Preparation>();
-    next->hold = MemoryHold(context.memory(), "preparing a deformation");
-    next->hold.resize(rest->positions.size() * kBytesPerVertex);
     next->rest = std::move(rest);
     next->constraints = std::move(constraints);
     const ConstraintSet holds_in_fact = holding_in_fact(*next->rest, *next->constraints);
     next->work = working_patch(*next->rest, holds_in_fact);
     find_who_holds(*next, holds_in_fact, context);
+    FormerSystems systems(std::exchange(former, nullptr));
+    // Stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
+    constexpr std::size_t kBytesPerVertex = 1000;
+    next->hold = MemoryHold(context.memory(), "preparing a deformation");
+    const std::size_t bytes = next->rest->positions.size() * kBytesPerVertex;
+    try {
+        next->hold.resize(bytes);
+    } catch (const Error&) {
+        systems.release_assembly();
+        next->hold.resize(bytes);
+    }
     if (next->rest->options().method == DeformMethod::implicit) {
-        prepare_implicit(*next, progress, context);
+        prepare_implicit(*next, std::move(systems), progress, context);
     } else {
         prepare_comparison(*next, context);
     }

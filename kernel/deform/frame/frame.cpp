@@ -147,6 +147,7 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
     if (const LinearSolution* solution = motion.method().solution.get()) {
         const LinearSolution::Places places{motion.base() - matrix_of({}), prepared.patch().origin,
                                             motion.method().frame_row, positions};
+        solution->find_weights(motion.differences(), context);
         for_each_block(context, solution->rows(), [&](Index begin, Index end) {
             solution->place(motion.differences(), asked.fixed, places, begin, end);
         });

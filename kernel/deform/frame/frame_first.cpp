@@ -25,6 +25,7 @@ void solve_first(const FrameInput& motion, const Context& context, Deviation& de
     }
     if (!motion.method().solution) return;
     const std::vector<Index>& free = motion.method().first->free_vertices();
+    motion.solution().find_weights(motion.differences(), context);
     for_each_block(context, count_of(free), [&](Index begin, Index end) {
         std::array<Vec4, kFrameBlock> x;
         motion.solution().deviations(motion.differences(), motion.asked().fixed, x.data(), begin,

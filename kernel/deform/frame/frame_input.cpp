@@ -127,9 +127,11 @@ void FrameInput::spread(const std::vector<Vec4>& value, std::vector<Vec4>& field
         }
     }
     for_each_block(context, count_of(free), [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-            for (std::size_t n = 0; n < value.size(); ++n) {
-                field[free[row]] += solution().translation_weight(n, row) * value[n];
+        for (std::size_t n = 0; n < value.size(); ++n) {
+            if (value[n].isZero(0.0)) continue;
+            const std::vector<Vec4>& weight = solution().row_weights(n);
+            for (Index row = begin; row < end; ++row) {
+                field[free[row]] += weight[row][3] * value[n];
             }
         }
     });

@@ -46,6 +46,7 @@ void spread_moves(const FrameInput& motion, std::span<const Mat4> differences,
         }
     });
     const std::vector<Index>& free = motion.method().first->free_vertices();
+    motion.solution().find_weights(differences, context);
     for_each_block(context, count_of(free), [&](Index begin, Index end) {
         std::array<Vec4, kFrameBlock> moved;
         motion.solution().handle_part(differences, moved.data(), begin, end);

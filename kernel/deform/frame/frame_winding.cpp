@@ -55,10 +55,10 @@ class MeanOfTurns {
             if (!answers_.of_handles[n].answer.empty()) continue;
             const Index h = solution.handles()[n];
             for (const Index v : prepared.held[h]) silent_[v].add(1.0, value_[n]);
+            const std::vector<Vec4>& weight = solution.row_weights(n);
             for (std::size_t row = 0; row < free.size(); ++row) {
                 if (prepared.owner[free[row]] == h) continue;
-                const double weight = solution.translation_weight(n, index_of(row));
-                silent_[free[row]].add(weight, value_[n]);
+                silent_[free[row]].add(weight[row][3], value_[n]);
             }
         }
     }

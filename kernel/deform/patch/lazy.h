@@ -22,6 +22,8 @@ class Lazy {
         return *value_;
     }
 
+    bool is_known() const { return look() != nullptr; }
+
   private:
     const Value* look() const {
         const std::lock_guard guard(lock_);

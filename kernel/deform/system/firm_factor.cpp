@@ -11,17 +11,25 @@ void enlarge_diagonal(SymmetricMatrix& matrix, double share) {
 
 }  // namespace
 
-void factor_firmly(SparseSystem& system, SymmetricMatrix& matrix, const Context& context) {
-    system.analyze(matrix, context);
+bool factor_firmly(SymmetricMatrix& matrix, const std::function<void()>& factor) {
+    bool enlarged = false;
     for (const double share : {1e-12, 1e-10, 1e-8, 1e-6}) {
         try {
-            return system.factor(matrix, context);
+            factor();
+            return enlarged;
         } catch (const Error& error) {
             if (error.code() != ErrorCode::not_positive_definite) throw;
         }
         enlarge_diagonal(matrix, share);
+        enlarged = true;
     }
-    system.factor(matrix, context);
+    factor();
+    return enlarged;
+}
+
+void factor_firmly(SparseSystem& system, SymmetricMatrix& matrix, const Context& context) {
+    system.analyze(matrix, context);
+    factor_firmly(matrix, [&] { system.factor(matrix, context); });
 }
 
 }  // namespace lissom

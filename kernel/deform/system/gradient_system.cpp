@@ -2,13 +2,24 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "kernel/core/extended.h"
 #include "kernel/core/large_pages.h"
 #include "kernel/deform/patch/row_accumulator.h"
-#include "kernel/deform/system/firm_factor.h"
 
 namespace lissom {
+
+// Rows of A and of both couplings for one chunk of free vertices.
+struct GradientSystem::SystemRows {
+    std::vector<Index> matrix_begin{0}, matrix_column;
+    std::vector<double> matrix_value;
+    std::vector<Index> position_begin{0}, position_column;
+    std::vector<double> position_value;
+    std::vector<Index> gradient_begin{0}, gradient_column;
+    std::vector<Vec3> gradient_value;
+};
+
 namespace {
 
 // sum_b w_ab (M_a - M_b) as coefficients of unknown or known positions, and of known gradients.
@@ -19,18 +30,10 @@ struct CoherenceRows {
     std::vector<double> known_value;
 };
 
-// Rows of A and of both couplings for one chunk of free vertices.
-struct SystemRows {
-    std::vector<Index> matrix_begin{0}, matrix_column;
-    std::vector<double> matrix_value;
-    std::vector<Index> position_begin{0}, position_column;
-    std::vector<double> position_value;
-    std::vector<Index> gradient_begin{0}, gradient_column;
-    std::vector<Vec3> gradient_value;
-};
-
 class Assembler {
   public:
+    using SystemRows = GradientSystem::SystemRows;
+
     Assembler(const WorkingPatch& work, const GradientStencils& gradients, const KnownMask& known,
               const DeformOptions& options)
         : work_(work),
@@ -60,12 +63,13 @@ class Assembler {
         return free;
     }
 
-    // Chunk by chunk: together they are the largest part of an assembly, too large to copy.
-    void build_coherence(const Context& context) {
+    // Chunk by chunk: together they are the largest part of an assembly, too large to copy. Only
+    // those of `needed` vertices.
+    void build_coherence(const std::vector<char>& needed, const Context& context) {
         const Index grain = assembly_grain(rings_.size());
         coherence_.resize(chunk_count(rings_.size()));
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
-            coherence_[begin / grain] = coherence_rows(begin, end, context);
+            coherence_[begin / grain] = coherence_rows(needed, begin, end, context);
         });
     }
 
@@ -125,9 +129,10 @@ class Assembler {
     }
 
     // How many columns the rows of coherence over one ring can have at most.
-    std::size_t max_columns(Index begin, Index end) const {
+    std::size_t max_columns(const std::vector<char>& needed, Index begin, Index end) const {
         std::size_t most = 0;
         for (Index a = begin; a < end; ++a) {
+            if (!needed[at(a)]) continue;
             most += 1 + rings_.count(a);
             for (const Index b : rings_.ring(a)) most += rings_.count(b);
         }
@@ -164,16 +169,17 @@ class Assembler {
         if (total > 0.0) add_gradient(a, total, row);
     }
 
-    CoherenceRows coherence_rows(Index begin, Index end, const Context& context) const {
+    CoherenceRows coherence_rows(const std::vector<char>& needed, Index begin, Index end,
+                                 const Context& context) const {
         CoherenceRows rows;
-        const std::size_t most = max_columns(begin, end);
+        const std::size_t most = max_columns(needed, begin, end);
         rows.column.reserve(most);
         rows.value.reserve(most);
         RowAccumulator<Vec3> row(rings_.size());
         RowAccumulator<double> known_row(rings_.size()), pairs(rings_.size());
         for (Index a = begin; a < end; ++a) {
             context.checkpoint();
-            if (gradients_.defined[a] && !known_.gradient[a]) {
+            if (needed[at(a)] && gradients_.defined[a] && !known_.gradient[a]) {
                 add_coherence_row(a, row, known_row, pairs);
             }
             row.drain([&](Index c, const Vec3& v) {
@@ -289,6 +295,55 @@ class Assembler {
     std::vector<CoherenceRows> coherence_;
 };
 
+// Whether a vertex has other stencils than before, or other values are known there.
+std::vector<char> changed_vertices(const Rings& rings, const GradientStencils& gradients,
+                                   const KnownMask& known, const FormerAssembly& former) {
+    const GradientStencils& before = *former.gradients;
+    std::vector<char> changed(at(rings.size()));
+    for (Index i = 0; i < rings.size(); ++i) {
+        const std::size_t v = at(i);
+        bool same = known.position[v] == former.known->position[v] &&
+                    known.gradient[v] == former.known->gradient[v] &&
+                    gradients.defined[v] == before.defined[v] &&
+                    gradients.self[v] == before.self[v] &&
+                    gradients.displaced_rest[v] == before.displaced_rest[v];
+        for (Index e = rings.begin[v]; same && e < rings.begin[v + 1]; ++e) {
+            same = gradients.neighbor[at(e)] == before.neighbor[at(e)];
+        }
+        changed[v] = !same;
+    }
+    return changed;
+}
+
+// The vertices within `reach` rings of marked ones.
+std::vector<char> within(const Rings& rings, std::vector<char> marked, Index reach) {
+    std::vector<Index> front, next;
+    for (Index i = 0; i < rings.size(); ++i) {
+        if (marked[at(i)]) front.push_back(i);
+    }
+    for (Index ring = 0; ring < reach; ++ring) {
+        next.clear();
+        for (const Index i : front) {
+            for (const Index j : rings.ring(i)) {
+                if (!std::exchange(marked[at(j)], 1)) next.push_back(j);
+            }
+        }
+        front.swap(next);
+    }
+    return marked;
+}
+
+// Appends row n of compressed rows `from_*` to others.
+template <typename Value>
+void append_row(std::vector<Index>& begin, std::vector<Index>& column, std::vector<Value>& value,
+                const std::vector<Index>& from_begin, const std::vector<Index>& from_column,
+                const std::vector<Value>& from_value, Index n) {
+    const auto first = from_begin[at(n)], last = from_begin[at(n) + 1];
+    column.insert(column.end(), from_column.begin() + first, from_column.begin() + last);
+    value.insert(value.end(), from_value.begin() + first, from_value.begin() + last);
+    begin.push_back(count_of(column));
+}
+
 // Entries below this share of the mean of their diagonal entries are rounding.
 constexpr double kRounding = 1e-13;
 
@@ -357,42 +412,96 @@ SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, In
 
 GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
                                const KnownMask& known, const DeformOptions& options,
-                               const Context& context) {
+                               const Context& context, const FormerAssembly& former)
+    // Gradients around two vertices of a pair depend on the rings of both.
+    : order_(RegionOrder::of(work, work.rings, work.patch.surface_count, options.coherence + 2)) {
+    const bool copies = former.system && former.system->is_as_assembled();
+    // Rounding is told by the diagonals of other rows.
+    const Index reach = (options.coherence + 2) * (work.patch.normal_points.empty() ? 1 : 2);
+    const std::vector<char> changed =
+        copies ? within(work.rings, changed_vertices(work.rings, gradients, known, former), reach)
+               : std::vector<char>(at(work.rings.size()), 1);
+    const GradientSystem* const from = copies ? former.system : nullptr;
     const std::vector<Index> relative = relative_vertices(work, gradients, known);
     if (relative.empty()) {
-        assemble(work, gradients, known, options, context);
+        assemble(work, gradients, known, options, context, changed, from);
         return;
     }
-    const std::vector<Index> row_of =
-        assemble(work, relative_stencils(work, gradients, relative), known, options, context);
+    const std::vector<Index> row_of = assemble(work, relative_stencils(work, gradients, relative),
+                                               known, options, context, changed, from);
     for (const Index v : relative) {
         relative_.emplace_back(row_of[at(work.rings.ring(v).back())], row_of[at(v)]);
     }
 }
 
+// Rows of changed vertices come from `parts`, one after the other, and others from `former`.
+void GradientSystem::join_rows(const std::vector<char>& changed, const std::vector<Index>& row_of,
+                               const std::vector<SystemRows>& parts, const GradientSystem* former) {
+    std::vector<Index> former_row(row_of.size(), kNoIndex);
+    if (former) {
+        for (std::size_t r = 0; r < former->free_.size(); ++r) {
+            former_row[at(former->free_[r])] = index_of(r);
+        }
+    }
+    std::size_t part = 0;
+    Index n = 0;
+    for (const Index v : free_) {
+        if (!changed[at(v)]) {
+            copy_row(*former, former_row[at(v)], row_of);
+            continue;
+        }
+        if (n + 1 == count_of(parts[part].matrix_begin)) {
+            ++part;
+            n = 0;
+        }
+        const SystemRows& from = parts[part];
+        append_row(matrix_.begin, matrix_.row, matrix_.value, from.matrix_begin, from.matrix_column,
+                   from.matrix_value, n);
+        append_row(positions_.begin, positions_.column, positions_.value, from.position_begin,
+                   from.position_column, from.position_value, n);
+        append_row(gradients_begin_, gradients_column_, gradients_value_, from.gradient_begin,
+                   from.gradient_column, from.gradient_value, n);
+        ++n;
+    }
+}
+
+void GradientSystem::copy_row(const GradientSystem& former, Index r,
+                              const std::vector<Index>& row_of) {
+    const auto first = matrix_.row.size();
+    append_row(matrix_.begin, matrix_.row, matrix_.value, former.matrix_.begin, former.matrix_.row,
+               former.matrix_.value, r);
+    for (std::size_t e = first; e < matrix_.row.size(); ++e) {
+        matrix_.row[e] = row_of[at(former.free_[at(matrix_.row[e])])];
+    }
+    append_row(positions_.begin, positions_.column, positions_.value, former.positions_.begin,
+               former.positions_.column, former.positions_.value, r);
+    append_row(gradients_begin_, gradients_column_, gradients_value_, former.gradients_begin_,
+               former.gradients_column_, former.gradients_value_, r);
+}
+
 std::vector<Index> GradientSystem::assemble(const WorkingPatch& work,
                                             const GradientStencils& gradients,
                                             const KnownMask& known, const DeformOptions& options,
-                                            const Context& context) {
+                                            const Context& context,
+                                            const std::vector<char>& changed,
+                                            const GradientSystem* former) {
     Assembler assembler(work, gradients, known, options);
     free_ = assembler.number_free_vertices();
-    assembler.build_coherence(context);
+    std::vector<Index> rows;
+    for (const Index v : free_) {
+        if (changed[at(v)]) rows.push_back(v);
+    }
+    assembled_rows_ = count_of(rows);
+    assembler.build_coherence(within(work.rings, changed, 1), context);
     positions_.columns = work.patch.vertex_count;
-    const std::vector<SystemRows> parts = assembler.build_rows(free_, context);
-    std::size_t entries = 0;
+    const std::vector<SystemRows> parts = assembler.build_rows(rows, context);
+    std::size_t entries = former ? former->matrix_.row.size() : 0;
     for (const SystemRows& part : parts) entries += part.matrix_column.size();
     matrix_.row.reserve(entries);
     matrix_.value.reserve(entries);
     prefer_large_pages(matrix_.row);
     prefer_large_pages(matrix_.value);
-    for (const SystemRows& part : parts) {
-        append_rows(matrix_.begin, matrix_.row, matrix_.value, part.matrix_begin,
-                    part.matrix_column, part.matrix_value);
-        append_rows(positions_.begin, positions_.column, positions_.value, part.position_begin,
-                    part.position_column, part.position_value);
-        append_rows(gradients_begin_, gradients_column_, gradients_value_, part.gradient_begin,
-                    part.gradient_column, part.gradient_value);
-    }
+    join_rows(changed, assembler.row_of(), parts, former);
     if (!work.patch.normal_points.empty()) drop_rounding(matrix_);
     ties_ = TieRows(work.ties, assembler.row_of(), work.position_unit(),
                     [&](Index v) { return final_position(work, gradients, v); });
@@ -401,13 +510,14 @@ std::vector<Index> GradientSystem::assemble(const WorkingPatch& work,
     return assembler.row_of();
 }
 
-void GradientSystem::factor(const Context& context) {
-    factor_firmly(system_, matrix_, context);
+void GradientSystem::factor(const Context& context, OrderedSystem former) {
+    system_ = std::move(former);
+    is_firm_ = system_.factor(matrix_, free_, std::exchange(order_, {}), context);
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
     ties_.prepare(count_of(free_),
                   [&](std::span<const double> b, std::span<double> x, Index columns) {
                       const std::vector<Extended> exact(b.begin(), b.end());
-                      system_.solve_refined(matrix_, exact, x, columns);
+                      system_.system().solve_refined(matrix_, exact, x, columns);
                   });
 }
 

@@ -17,6 +17,7 @@
 #include "kernel/deform/patch/ties.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
+#include "kernel/deform/system/ordered_system.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
@@ -39,22 +40,43 @@ inline double second_ring_coherence(const DeformOptions& options) {
     return options.scale_free ? 0.57735026918962576 : 2.0;
 }
 
+class GradientSystem;
+
+/// A system of the same patch and options that ends, with the input of its assembly.
+struct FormerAssembly {
+    const GradientSystem* system = nullptr;
+    const GradientStencils* gradients = nullptr;
+    const KnownMask* known = nullptr;
+};
+
 /// Normal equations of Eq 2.8 with the known quantities moved to the right-hand side:
 /// A x_free = - (known_positions X + known_gradients W). Rows are free vertices; columns of the two
 /// couplings are local vertices. Ties add their terms; anchors are known.
 class GradientSystem {
   public:
-    /// Assembles A row by row, without forming products of sparse matrices.
+    /// Assembles A row by row, without forming products of sparse matrices. Rows that come out as
+    /// in `former`, if there is one, are copied.
     GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
-                   const KnownMask& known, const DeformOptions& options, const Context& context);
+                   const KnownMask& known, const DeformOptions& options, const Context& context,
+                   const FormerAssembly& former = {});
 
-    /// Analyses and factors A, and prepares hard ties. Errors: not_positive_definite with rows as
-    /// elements; memory_limit.
-    void factor(const Context& context);
+    /// Analyses and factors A, and prepares hard ties. `former` is the result of release() of a
+    /// system of the same region. Errors: not_positive_definite with rows as elements;
+    /// memory_limit.
+    void factor(const Context& context, OrderedSystem former);
+    /// The same for a system without a next one, in an order of its own.
+    void factor(const Context& context) {
+        order_ = {};
+        factor(context, {});
+    }
+    /// Its factor, for the next system; this one is of no more use.
+    OrderedSystem release() { return std::move(system_); }
 
     /// Local vertex of each row.
     const std::vector<Index>& free_vertices() const { return free_; }
-    const FactorStats& stats() const { return system_.stats(); }
+    /// Number of rows of A that were not copied.
+    Index assembled_rows() const { return assembled_rows_; }
+    FactorStats stats() const { return system_.stats(); }
 
     /// Right-hand side of one column, of length rows: `position(k)` is the coordinate of known
     /// vertex k and `gradient(k)` the row of its known gradient that belongs to that coordinate.
@@ -88,7 +110,7 @@ class GradientSystem {
     /// Solves for `columns` right-hand sides, to nearly full precision.
     std::vector<double> solve(std::span<const Extended> b, Index columns) const {
         std::vector<double> x(b.size());
-        system_.solve_refined(matrix_, b, x, columns);
+        system_.system().solve_refined(matrix_, b, x, columns);
         const std::size_t rows = free_.size();
         for (Index c = 0; c < columns; ++c)
             add_vertices(std::span(x).subspan(at(c) * rows, rows), 1.0);
@@ -97,14 +119,23 @@ class GradientSystem {
 
     /// Solves without refinement, for a system without points beside flat vertices.
     void solve_roughly(std::span<const double> b, std::span<double> x, Index columns) const {
-        system_.solve(b, x, columns);
+        system_.system().solve(b, x, columns);
     }
 
+    /// Rows of A under construction; private to gradient_system.cpp.
+    struct SystemRows;
+
   private:
+    void join_rows(const std::vector<char>& changed, const std::vector<Index>& row_of,
+                   const std::vector<SystemRows>& parts, const GradientSystem* former);
+    void copy_row(const GradientSystem& former, Index r, const std::vector<Index>& row_of);
     /// Returns the row of each local vertex, or kNoIndex.
     std::vector<Index> assemble(const WorkingPatch& work, const GradientStencils& gradients,
                                 const KnownMask& known, const DeformOptions& options,
-                                const Context& context);
+                                const Context& context, const std::vector<char>& changed,
+                                const GradientSystem* former);
+    /// Whether its rows may be copied: ties and firm factors change them.
+    bool is_as_assembled() const { return ties_.empty() && !is_firm_; }
 
     /// Adds `sign` times the position of their vertex to points that are unknown relative to it.
     void add_vertices(std::span<double> x, double sign) const {
@@ -122,7 +153,10 @@ class GradientSystem {
     TieRows ties_;
     MemoryCharge ties_charge_;
     std::size_t tie_bytes_ = 0;
-    SparseSystem system_;
+    Index assembled_rows_ = 0;
+    bool is_firm_ = false;
+    RegionOrder order_;
+    OrderedSystem system_;
 };
 
 }  // namespace lissom

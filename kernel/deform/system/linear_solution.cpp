@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
+#include "kernel/core/clock.h"
 #include "kernel/core/extended.h"
 #include "kernel/deform/system/frame_loops.h"
 
@@ -37,24 +39,6 @@ std::vector<Value> folds(const LinearProblem& problem, const At& at) {
     return result;
 }
 
-// A loop over weights, with the list of their rows that it refers to.
-struct WeightLoop {
-    // Of so many handles without memory: blocks are many.
-    static constexpr std::size_t kUsual = 64;
-    std::array<const Vec4*, kUsual> usual;
-    std::vector<const Vec4*> more;
-    BasisLoop loop;
-
-    WeightLoop(std::span<const Mat4> differences, const std::vector<std::vector<Vec4>>& of) {
-        if (of.size() > kUsual) more.resize(of.size());
-        const Vec4** const weights = more.empty() ? usual.data() : more.data();
-        for (std::size_t h = 0; h < of.size(); ++h) weights[h] = of[h].data();
-        loop = {differences.data(), weights, of.size()};
-    }
-    WeightLoop(const WeightLoop&) = delete;
-    WeightLoop& operator=(const WeightLoop&) = delete;
-};
-
 }  // namespace
 
 Mat4 matrix_of(const Affine& transform) {
@@ -64,7 +48,38 @@ Mat4 matrix_of(const Affine& transform) {
     return m;
 }
 
-LinearSolution::LinearSolution(const LinearProblem& problem, const Context& context) {
+// A loop over the weights of handles that move beside the base, with the lists that it refers to.
+struct LinearSolution::Loop {
+    // Of so many handles without memory: blocks are many.
+    static constexpr std::size_t kUsual = 64;
+    std::array<const Vec4*, kUsual> usual;
+    std::array<Mat4, kUsual> usual_transforms;
+    std::vector<const Vec4*> more;
+    std::vector<Mat4> more_transforms;
+    BasisLoop loop;
+
+    Loop(std::span<const Mat4> differences, const LinearSolution& of) {
+        const bool many = differences.size() > kUsual;
+        if (many) {
+            more.resize(differences.size());
+            more_transforms.resize(differences.size());
+        }
+        const Vec4** const weights = many ? more.data() : usual.data();
+        Mat4* const transforms = many ? more_transforms.data() : usual_transforms.data();
+        std::size_t count = 0;
+        for (std::size_t h = 0; h < differences.size(); ++h) {
+            if (differences[h].isZero(0.0)) continue;
+            transforms[count] = differences[h];
+            weights[count++] = of.weights(h).of_rows.data();
+        }
+        loop = {transforms, weights, count};
+    }
+    Loop(const Loop&) = delete;
+    Loop& operator=(const Loop&) = delete;
+};
+
+LinearSolution::LinearSolution(const LinearProblem& problem, const Context& context)
+    : problem_(problem) {
     const std::vector<Index>& free = problem.system.free_vertices();
     for (const Index v : free) rest_.push_back(problem.patch.rest[v]);
     const std::vector<Index> row = rows_of(problem);
@@ -75,14 +90,14 @@ LinearSolution::LinearSolution(const LinearProblem& problem, const Context& cont
     for (Index r = 0; r < rows(); ++r) {
         if (fold_of_[r] != kNoIndex) folded_.push_back(r);
     }
-    choose_base(problem);
+    choose_base();
+    weights_ = std::vector<Lazy<HandleWeights>>(handles_.size());
     charge_ = context.charge(memory_bytes(), "the handle basis");
-    solve_handles(problem, context);
-    fold_back(problem);
 }
 
 // Vertices without faces are pinned too, but hold nothing.
-void LinearSolution::choose_base(const LinearProblem& problem) {
+void LinearSolution::choose_base() {
+    const LinearProblem& problem = problem_;
     bool surrounded = false;
     for (Index i = 0; i < problem.patch.vertex_count; ++i) {
         const Index o = problem.owner[i];
@@ -99,47 +114,62 @@ void LinearSolution::choose_base(const LinearProblem& problem) {
     }
 }
 
-void LinearSolution::solve_handles(const LinearProblem& problem, const Context& context) {
-    const std::size_t rows = rest_.size();
-    std::vector<Extended> right(rows * 4);
-    Progress progress(context, "deform: handle basis");
-    for (const Index h : handles_) {
-        const auto holds = [&](Index k) { return problem.owner[k] == h; };
-        const auto position = [&](int c, Index k) {
-            if (!holds(k)) return 0.0;
-            return c < 3 ? problem.patch.rest[k][c] : 1.0;
-        };
-        for (int c = 0; c < 4; ++c) {
-            problem.system.right_hand_side([&](Index k) { return position(c, k); },
-                                           [&](Index k) {
-                                               return holds(k) && c < 3 ? Vec3(Vec3::Unit(c))
-                                                                        : Vec3(Vec3::Zero());
-                                           },
-                                           right.data() + c * rows);
-        }
-        std::vector<double> columns = problem.system.solve(right, 4);
-        for (int c = 0; c < 4; ++c) {
-            problem.system.enforce_ties([&](Index k) { return position(c, k); },
-                                        std::span(columns).subspan(c * rows, rows));
-        }
-        std::vector<Vec4>& weight = weight_.emplace_back(rows);
-        for (std::size_t r = 0; r < rows; ++r) {
-            weight[r] = {columns[r], columns[rows + r], columns[2 * rows + r],
-                         columns[3 * rows + r]};
-        }
-        progress.update(weight_.size(), handles_.size());
+void LinearSolution::find_weights(std::span<const Mat4> differences, const Context& context) const {
+    std::vector<std::size_t> moved;
+    for (std::size_t h = 0; h < differences.size(); ++h) {
+        if (!differences[h].isZero(0.0) && !weights_[h].is_known()) moved.push_back(h);
     }
+    if (moved.empty()) return;
+    context.parallel_for(0, count_of(moved), 1, [&](Index begin, Index end) {
+        for (Index n = begin; n < end; ++n) {
+            context.checkpoint();
+            (void)weights(moved[at(n)]);
+        }
+    });
 }
 
-void LinearSolution::fold_back(const LinearProblem& problem) {
-    const std::vector<Index> row = rows_of(problem);
-    for (std::size_t n = 0; n < handles_.size(); ++n) {
-        fold_.push_back(folds<Vec4>(problem, [&](Index k) -> Vec4 {
-            if (row[k] != kNoIndex) return weight_[n][row[k]];
-            if (problem.owner[k] != handles_[n]) return Vec4::Zero();
-            return homogeneous(problem.patch.rest[k]);
-        }));
+void LinearSolution::find_all_weights(const Context& context) const {
+    Progress progress(context, "deform: handle basis");
+    find_weights(std::vector<Mat4>(handles_.size(), Mat4::Identity()), context);
+}
+
+const LinearSolution::HandleWeights& LinearSolution::weights(std::size_t h) const {
+    return weights_[h].get([&] { return solved_weights(handles_[h]); });
+}
+
+LinearSolution::HandleWeights LinearSolution::solved_weights(Index handle) const {
+    const auto start = Clock::now();
+    const LinearProblem& problem = problem_;
+    const std::size_t rows = rest_.size();
+    const auto holds = [&](Index k) { return problem.owner[k] == handle; };
+    const auto position = [&](int c, Index k) {
+        if (!holds(k)) return 0.0;
+        return c < 3 ? problem.patch.rest[k][c] : 1.0;
+    };
+    std::vector<Extended> right(rows * 4);
+    for (int c = 0; c < 4; ++c) {
+        problem.system.right_hand_side(
+            [&](Index k) { return position(c, k); },
+            [&](Index k) { return holds(k) && c < 3 ? Vec3(Vec3::Unit(c)) : Vec3(Vec3::Zero()); },
+            right.data() + c * rows);
     }
+    std::vector<double> columns = problem.system.solve(right, 4);
+    for (int c = 0; c < 4; ++c) {
+        problem.system.enforce_ties([&](Index k) { return position(c, k); },
+                                    std::span(columns).subspan(c * rows, rows));
+    }
+    HandleWeights found{std::vector<Vec4>(rows), {}};
+    for (std::size_t r = 0; r < rows; ++r) {
+        found.of_rows[r] = {columns[r], columns[rows + r], columns[2 * rows + r],
+                            columns[3 * rows + r]};
+    }
+    const std::vector<Index> row = rows_of(problem);
+    found.folds = folds<Vec4>(problem, [&](Index k) -> Vec4 {
+        if (row[k] != kNoIndex) return found.of_rows[row[k]];
+        return holds(k) ? homogeneous(problem.patch.rest[k]) : Vec4(Vec4::Zero());
+    });
+    nanoseconds_ += static_cast<std::int64_t>(1e9 * seconds_since(start));
+    return found;
 }
 
 FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
@@ -181,7 +211,7 @@ FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
 
 void LinearSolution::handle_part(std::span<const Mat4> differences, Vec4* x, Index begin,
                                  Index end) const {
-    WeightLoop(differences, weight_).loop.evaluate(x, begin, end);
+    Loop(differences, *this).loop.evaluate(x, begin, end);
 }
 
 void LinearSolution::deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x,
@@ -193,7 +223,7 @@ void LinearSolution::deviations(std::span<const Mat4> differences, const FixedPa
 
 void LinearSolution::place(std::span<const Mat4> differences, const FixedPart& fixed,
                            const Places& places, Index begin, Index end) const {
-    WeightLoop(differences, weight_)
+    Loop(differences, *this)
         .loop.place(
             {rest_.data(), places.shift, places.origin, places.row.data(), places.out.data()},
             begin, end);
@@ -214,7 +244,8 @@ void LinearSolution::place_folded(std::span<const Mat4> differences, const Fixed
     const Index f = fold_of_[row];
     Vec3& at = places.out[places.row[row]];
     for (std::size_t h = 0; h < handles_.size(); ++h) {
-        at += (differences[h] * fold_[h][f]).head<3>();
+        if (differences[h].isZero(0.0)) continue;
+        at += (differences[h] * weights(h).folds[lissom::at(f)]).head<3>();
     }
     if (!fixed.fold.empty()) at += fixed.fold[f];
 }

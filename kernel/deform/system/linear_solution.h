@@ -2,7 +2,9 @@
 /// kernel/deform.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/patch/lazy.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/system/gradient_system.h"
 #include "kernel/deform/system/gradients.h"
@@ -26,7 +29,7 @@ inline Vec4 homogeneous(const Vec3& p) {
     return {p.x(), p.y(), p.z(), 1.0};
 }
 
-/// Everything that a solution is built from; it outlives the call only.
+/// Everything that a solution is built from, and lives as long as that.
 struct LinearProblem {
     const Patch& patch;
     const Rings& rings;
@@ -54,12 +57,19 @@ struct FixedPart {
 /// threads may read one solution at the same time.
 class LinearSolution {
   public:
-    /// Solves for all handles at once.
+    /// A solution whose weights are found as they are needed. Memory of all is charged at once.
     LinearSolution(const LinearProblem& problem, const Context& context);
+
+    /// Finds the weights of handles that move beside the base, or of all, several at the same time
+    /// if the context has threads. They are found without it too, by the first who asks.
+    void find_weights(std::span<const Mat4> differences, const Context& context) const;
+    void find_all_weights(const Context& context) const;
 
     /// Solves for the part that vertex constraints add, for the problem it was made from.
     FixedPart fixed_part(const LinearProblem& problem, const VertexConstraints& constraints) const;
 
+    /// Time that the weights found so far have taken.
+    double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_); }
     /// Number of free vertices.
     Index rows() const { return count_of(rest_); }
     /// Returns the handle whose transform is T, or kNoIndex for T = I.
@@ -84,14 +94,16 @@ class LinearSolution {
     void place(std::span<const Mat4> differences, const FixedPart& fixed, const Places& places,
                Index begin, Index end) const;
 
-    /// The weight of the translation of handle number h of `handles()`, degenerate vertices
-    /// displaced.
-    double translation_weight(std::size_t h, Index row) const { return weight_[h][at(row)][3]; }
+    /// The weights of handle number h of `handles()` at the free vertices, degenerate ones
+    /// displaced; the fourth is that of the translation.
+    const std::vector<Vec4>& row_weights(std::size_t h) const { return weights(h).of_rows; }
 
     /// Weight of handle number h of `handles()` in `positions`, and the part that no handle moves.
     Vec4 weight(std::size_t h, Index row) const {
         const Index f = fold_of_[at(row)];
-        return f == kNoIndex ? weight_[h][at(row)] : Vec4(weight_[h][at(row)] + fold_[h][at(f)]);
+        const HandleWeights& found = weights(h);
+        return f == kNoIndex ? found.of_rows[at(row)]
+                             : Vec4(found.of_rows[at(row)] + found.folds[at(f)]);
     }
     Vec3 fixed(const FixedPart& fixed, Index row) const {
         const Index f = fold_of_[at(row)];
@@ -101,19 +113,27 @@ class LinearSolution {
     }
 
   private:
+    /// Weights of one handle at the free vertices, and the folds of displaced ones.
+    struct HandleWeights {
+        std::vector<Vec4> of_rows, folds;
+    };
+    struct Loop;
+
     /// Bytes of the weights of all handles.
     std::size_t memory_bytes() const;
-    void choose_base(const LinearProblem& problem);
-    void solve_handles(const LinearProblem& problem, const Context& context);
-    void fold_back(const LinearProblem& problem);
+    void choose_base();
+    const HandleWeights& weights(std::size_t h) const;
+    HandleWeights solved_weights(Index handle) const;
     void place_folded(std::span<const Mat4> differences, const FixedPart& fixed,
                       const Places& places, Index row) const;
 
+    LinearProblem problem_;
     MemoryCharge charge_;
     Index base_ = kNoIndex;
     std::vector<Index> handles_;
     std::vector<Vec3> rest_;
-    std::vector<std::vector<Vec4>> weight_, fold_;
+    std::vector<Lazy<HandleWeights>> weights_;
+    mutable std::atomic<std::int64_t> nanoseconds_ = 0;
     /// Place of a displaced free vertex in the folds, and their rows, ascending.
     std::vector<Index> fold_of_, folded_;
 };

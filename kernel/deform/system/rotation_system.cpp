@@ -9,7 +9,6 @@
 #include "kernel/core/large_pages.h"
 #include "kernel/deform/patch/patch_distance.h"
 #include "kernel/deform/patch/row_accumulator.h"
-#include "kernel/deform/system/firm_factor.h"
 #include "kernel/deform/system/frame_blocks.h"
 
 namespace lissom {
@@ -104,6 +103,8 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     std::optional<SurfaceRings> own;
     if (!is_real(patch)) own = work.surface_rings();
     rings_ = own ? own->rings : work.rings;
+    const Index reach = options.second == SecondSystem::poisson ? 1 : 2;
+    order_ = RegionOrder::of(work, rings_, patch.real_count, reach);
     const RingGeometry& geometry = own ? own->geometry : work.geometry;
     const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
     const double factor = laplacian_factor_of(patch, rings_, options.second);
@@ -199,8 +200,9 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
     append_parts(matrix_, parts);
 }
 
-void RotationSystem::factor(const Context& context) {
-    factor_firmly(system_, matrix_, context);
+void RotationSystem::factor(const Context& context, OrderedSystem former) {
+    system_ = std::move(former);
+    system_.factor(matrix_, free_, std::exchange(order_, {}), context);
     matrix_ = {};
     stats_ = system_.stats();
 }
@@ -208,16 +210,20 @@ void RotationSystem::factor(const Context& context) {
 void RotationSystem::finish(const Context& context) {
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
     ties_.prepare(count_of(free_), [&](std::span<const double> b, std::span<double> x,
-                                       Index columns) { system_.solve(b, x, columns); });
-    single_ = system_.single_factor(context);
+                                       Index columns) { system_.system().solve(b, x, columns); });
+    single_ = system_.system().single_factor(context);
     const double contraction = measure_contraction(context);
     if (!(contraction <= kLargestContraction)) {
         single_ = {};
         corrections_ = 1;
         return;
     }
-    system_ = {};
-    stats_.factor_bytes /= 2;
+    if (!system_.is_ordered()) {
+        system_ = {};
+        stats_.factor_bytes /= 2;
+    } else {
+        stats_.factor_bytes += stats_.factor_nonzeros * sizeof(float);
+    }
     corrections_ =
         static_cast<int>(std::ceil(std::log(kPrecision) / std::log(std::max(contraction, 1e-6))));
 }
@@ -391,7 +397,7 @@ void RotationSystem::find_correction(Scratch& scratch, const Context& context) c
     for (std::size_t r = 0; r < rows; ++r) {
         for (std::size_t d = 0; d < 3; ++d) columns[d * rows + r] = scratch.residual[r][d];
     }
-    system_.solve(columns, columns, 3);
+    system_.system().solve(columns, columns, 3);
     for (std::size_t r = 0; r < rows; ++r) {
         scratch.correction[r] = {columns[r], columns[rows + r], columns[2 * rows + r]};
     }

@@ -15,6 +15,7 @@
 #include "kernel/deform/patch/ties.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/frame_loops.h"
+#include "kernel/deform/system/ordered_system.h"
 #include "kernel/solve/sparse/single_factor.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
 #include "kernel/solve/sparse/sparse_system.h"
@@ -43,8 +44,16 @@ class RotationSystem {
     RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                    const DeformOptions& options, const Context& context);
 
-    /// Errors: not_positive_definite with rows as elements; memory_limit.
-    void factor(const Context& context);
+    /// `former` is the result of release() of a system of the same region. Errors:
+    /// not_positive_definite with rows as elements; memory_limit.
+    void factor(const Context& context, OrderedSystem former);
+    /// The same for a system without a next one, in an order of its own.
+    void factor(const Context& context) {
+        order_ = {};
+        factor(context, {});
+    }
+    /// Its factor, for the next system; this one is of no more use.
+    OrderedSystem release() { return std::move(system_); }
     /// Follows `factor`: keeps the factor in single precision, unless the system is too
     /// ill-conditioned for that. Errors: memory_limit.
     void finish(const Context& context);
@@ -130,9 +139,11 @@ class RotationSystem {
     MemoryCharge ties_charge_;
     std::size_t tie_bytes_ = 0;
     double tie_unit_ = 1.0;
-    /// One of the two holds the factor; corrections for a solution of nearly full precision.
+    RegionOrder order_;
+    /// The copy in single precision serves if there is one, and the factor itself the next system;
+    /// corrections for a solution of nearly full precision.
     SingleFactor single_;
-    SparseSystem system_;
+    OrderedSystem system_;
     int corrections_ = 1;
     FactorStats stats_;
 };

@@ -29,7 +29,9 @@ inline std::vector<Poses> poses_of(const Scene& scene, Edit& edit, const Prepara
 
 // Solves each pose in turn, and then on two threads at once, which begin with different ones.
 inline void check_threads(const Scene& scene, Edit& edit) {
-    const auto prepared = edit.deformer.prepare();
+    // Nothing is found yet that a frame asks for first.
+    const auto made = edit.deformer.prepare(),
+               prepared = prepare_deformation(rest_of(*made), constraints_of(*made));
     const std::vector<Poses> poses = poses_of(scene, edit, *prepared);
     const auto solve_all = [&](const std::shared_ptr<const Preparation>& by, std::size_t first) {
         FrameScratch scratch;
