@@ -10,6 +10,7 @@
 
 #include "bindings/engine/lissom_hair.h"
 #include "kernel/core/error.h"
+#include "kernel/hair/dynamics/hair_dynamics.h"
 #include "kernel/hair/follow/strand_follow.h"
 #include "kernel/hair/follow/strand_roots.h"
 #include "kernel/hair/guides/guide_set.h"
@@ -162,6 +163,27 @@ void run_levels(Report& report, const Strands& hair, const Context& context) {
                      "sixteen pictures of all strands", quotient);
 }
 
+// A frame of hair in motion against rebuilding all strands behind it.
+void run_dynamics(Report& report, const Mesh& head, const Strands& hair, const Context& context) {
+    const Scalp scalp(head);
+    const Vec3 center = scalp.unit() * scalp.frame().center;
+    const BodyDistance ball = [&](const Vec3& p) { return (p - center).norm() - 0.09; };
+    report.title("Dynamics of guides of 16 points, 20 steps a frame");
+    for (const Index count : {200, 1000}) {
+        const GuideSet set = make_guide_set(hair, {.count = count, .points = 16}, context);
+        HairDynamics moving(make_hair_rig(set, {.body = ball}, context), ball, {}, context);
+        const Quotient quotient = quotient_of(
+            5, [&] { return seconds([&] { moving.step(1.0 / 30.0, context); }); },
+            [&] {
+                return seconds([&] { rebuild_strands(set, {.curves = set.curves}, context); });
+            });
+        const std::string row = "frame of " + std::to_string(count) + " guides";
+        report.add({row, 1e3 * quotient.above, "ms"});
+        report.add_ratio(row + " / rebuilding 100K strands", "the strands that follow them",
+                         quotient);
+    }
+}
+
 double mean_length(const Strands& hair) {
     double sum = 0.0;
     for (Index s = 0; s < hair.size(); ++s) sum += length(hair.strand(s));
@@ -182,11 +204,12 @@ void run(Report& report) {
     options.threads = 2;
     const Context context(options);
     const Mesh head = make_head();
-    if (report.wants("guides") || report.wants("follow")) {
+    if (report.wants("guides") || report.wants("follow") || report.wants("dynamics")) {
         const Strands hair = hair_on_head(head, kStrands, context);
         report.title("100K strands of 16 points");
         if (report.wants("guides")) run_guides(report, hair, context);
         if (report.wants("follow")) run_follow(report, head, hair, context);
+        if (report.wants("dynamics")) run_dynamics(report, head, hair, context);
     }
     if (!report.wants("levels")) return;
     const Strands hair = hair_on_head(head, kLevelStrands, context);

@@ -105,13 +105,13 @@ Library kernel_library() {
     library.functions.push_back(listen_function());
     add(library.functions, error_functions());
     library.types = {
-        whole_mesh_type(),      region_type(),          whole_path_type(),    buffer_type(),
-        deformer_type(),        handle_type(),          pose_space_type(),    pose_type(),
-        merger_type(),          provenance_type(),      paste_type(),         scalp_type(),
-        whole_hairstyle_type(), whole_curve_type(),     strands_type(),       guide_set_type(),
-        cards_type(),           strand_follower_type(), hair_dynamics_type(), scene_type(),
-        polyline_type(),        whole_camera_type(),    gizmo_type(),         support_type(),
-        tool_view_type(),       parameters_type()};
+        whole_mesh_type(), region_type(),          whole_path_type(),      buffer_type(),
+        deformer_type(),   handle_type(),          bones_type(),           pose_space_type(),
+        pose_type(),       merger_type(),          provenance_type(),      paste_type(),
+        scalp_type(),      whole_hairstyle_type(), whole_curve_type(),     strands_type(),
+        guide_set_type(),  cards_type(),           strand_follower_type(), hair_dynamics_type(),
+        scene_type(),      polyline_type(),        whole_camera_type(),    gizmo_type(),
+        support_type(),    tool_view_type(),       parameters_type()};
     library.records = kernel_records();
     add(library.records, error_records());
     add(library.records, cut_records());

@@ -33,6 +33,7 @@ std::vector<Function> buffer_methods_of_mesh();
 Type deformer_type();
 std::vector<Function> deform_engine_methods();
 Type handle_type();
+Type bones_type();
 std::vector<Function> deform_functions();
 
 Type merger_type();

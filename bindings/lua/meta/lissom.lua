@@ -1815,6 +1815,16 @@ function Deformer:pose() end
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:set_pose(pose) end
 
+---@class lissom.Deformer.Add_bonesOptions
+---@field joints lissom.Vector[] Joints at rest within the surface, from the base to the tip; two at least.
+---@field limits? number[] For each bone the greatest angle from its rest direction, as seen from the bone before it, in degrees. Default: no limits.
+---@field share? number Part of each bone's length along which it holds the surface. Default: 0.3.
+
+---Adds a chain of bones. Each holds the surface around its middle as a handle, and the solver finds how the rest follows: there are no weights to paint.
+---@param options lissom.Deformer.Add_bonesOptions
+---@return lissom.Bones bones # Turn them, then solve.
+function Deformer:add_bones(options) end
+
 ---@class lissom.Deformer.AttachOptions
 ---@field mode? "components"|"vertices" Pieces that keep their shape: connected components, such as buttons and eyes; or none, each vertex follows the surface nearest to it, as clothes do. Default: "components".
 ---@field scale? boolean Whether pieces grow and shrink with the surface below them. Default: false.
@@ -1921,6 +1931,51 @@ function Handle:remove() end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Handle:close() end
+
+---A chain of bones in a deformer. Its pose is that of its handles.
+---@class lissom.Bones
+---@operator len: integer
+local Bones = {}
+
+---Turns a bone, and those behind it, about its joint, within its limit. The surface follows at the next solve.
+---@param bone integer Its number, from the base.
+---@param axis "x"|"y"|"z"|lissom.Vector The axis, in the world.
+---@param angle number The angle. In degrees.
+---@return lissom.Bones bones # The bones themselves.
+function Bones:turn(bone, axis, angle) end
+
+---@class lissom.Bones.ReachOptions
+---@field axis? "x"|"y"|"z"|lissom.Vector Axis about which a stretched chain bends if the target lies along it. Default: one square to it.
+---@field rounds? integer Rounds over all joints, at most. Default: 200.
+
+---Inverse kinematics: turns bones so that the tip comes to a point, or as near to it as their lengths and limits let it.
+---@param target lissom.Vector The point.
+---@param options? lissom.Bones.ReachOptions
+---@return number distance # The distance from the tip that is left.
+---@overload fun(self: lissom.Bones, x: number, y: number, z: number, options?: lissom.Bones.ReachOptions): number
+function Bones:reach(target, options) end
+
+---Puts the base at a point; all bones go along as they are.
+---@param base lissom.Vector The place of the first joint.
+---@return lissom.Bones bones # The bones themselves.
+---@overload fun(self: lissom.Bones, x: number, y: number, z: number): lissom.Bones
+function Bones:move(base) end
+
+---Puts all bones back to rest.
+---@return lissom.Bones bones # The bones themselves.
+function Bones:reset() end
+
+---The joints as they are now, by the poses of the handles.
+---@return lissom.Vector[] joints # From the base to the tip.
+function Bones:joints() end
+
+---The handle of a bone: the surface that it holds.
+---@param bone integer Its number, from the base.
+---@return lissom.Handle handle # The handle.
+function Bones:handle(bone) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function Bones:close() end
 
 ---Posed meshes of one topology, and their blends.
 ---@class lissom.PoseSpace

@@ -86,6 +86,10 @@ local makers = {
     box = lissom.shapes.box,
     deformer = function() return lissom.deformer(box) end,
     handle = function() return deformer:add_handle(box:region("top")) end,
+    bones = function()
+        return lissom.deformer(lissom.shapes.bar{ across = 2, along = 10 }):add_bones{
+            joints = { { 0, -1.5, 0 }, { 0, 1.5, 0 } } }
+    end,
     strands = function() return lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } } end,
     scene = function()
         local scene = lissom.scene{}
@@ -112,6 +116,7 @@ local named = {
     ["lissom.Buffer"] = function() return box:positions() end,
     ["lissom.Deformer"] = function() return deformer end,
     ["lissom.Handle"] = function() return handle end,
+    ["lissom.Bones"] = function() return bones end,
     ["lissom.Strands"] = function() return strands end,
     ["lissom.Pose"] = function() return deformer:pose() end,
     ["lissom.Scene"] = function() return scene end,

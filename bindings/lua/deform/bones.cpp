@@ -1,0 +1,236 @@
+// lissom.Bones: chains of bones in a deformer, turned by hand or towards a point.
+#include "kernel/deform/bones/bones.h"
+
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/deform/deform_object.h"
+
+namespace lissom::lua {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+struct BonesObject {
+    static constexpr const char* kTypeName = "lissom.Bones";
+
+    std::shared_ptr<DeformObject> edit;
+    Bones bones;
+};
+
+int add_bones_of(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const std::span<const Vec3> joints = call.points("joints");
+    const std::span<const double> limits =
+        call.has("limits") ? call.numbers("limits") : std::span<const double>{};
+    const double share = call.number("share");
+    const auto result = call.create<BonesObject>();
+    const bool done = call.attempt([&] {
+        Deformer& deformer = edit->deformer();
+        BonesOptions options;
+        options.joints.assign(joints.begin(), joints.end());
+        for (const double limit : limits) options.limits.push_back(limit * kDegree);
+        options.share = share;
+        call.reserve(edit, handle_bytes(at(edit->mesh->mesh.vertex_count())));
+        Bones made = add_bones(deformer, edit->mesh->mesh, options, call.context());
+        result.set(std::make_shared<BonesObject>(BonesObject{edit.share(), std::move(made)}));
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return 1;
+}
+
+// Changes the chain of a call and moves the handles along.
+template <typename Work>
+bool change_chain(Call& call, const Work& work) {
+    const auto self = call.self<BonesObject>();
+    return call.attempt_quick([&] {
+        Deformer& deformer = self->edit->deformer();
+        BoneChain chain = chain_of(deformer, self->bones);
+        work(chain);
+        set_bones(deformer, self->bones, chain);
+    });
+}
+
+int turn_bone(Call& call) {
+    const Index bone = call.id("bone");
+    const Vec3 axis = call.vector("axis");
+    const double angle = call.number("angle") * kDegree;
+    const bool done = change_chain(call, [&](BoneChain& chain) { chain.turn(bone, axis, angle); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int move_bones(Call& call) {
+    const Vec3 place = call.vector("base");
+    const bool done = change_chain(call, [&](BoneChain& chain) { chain.set_base(place); });
+    return done ? call.push_argument() : call.fail();
+}
+
+int reach_with_bones(Call& call) {
+    const Vec3 target = call.vector("target");
+    ReachOptions options;
+    if (call.has("axis")) options.axis = call.vector("axis");
+    options.rounds = call.integer("rounds");
+    double off = 0.0;
+    const bool done =
+        change_chain(call, [&](BoneChain& chain) { off = chain.reach(target, options); });
+    return done ? call.push(off) : call.fail();
+}
+
+int reset_bones(Call& call) {
+    const auto self = call.self<BonesObject>();
+    const bool done = call.attempt_quick([&] {
+        set_bones(self->edit->deformer(), self->bones,
+                  BoneChain(self->bones.joints, self->bones.limits));
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int bone_joints(Call& call) {
+    auto& joints = call.hold<std::vector<Vec3>>();
+    const auto self = call.self<BonesObject>();
+    const bool done = call.attempt_quick(
+        [&] { joints = chain_of(self->edit->deformer(), self->bones).joints(); });
+    if (!done) return call.fail();
+    lua_createtable(call.lua(), count_of(joints), 0);
+    for (Index i = 0; i < count_of(joints); ++i) {
+        call.push_vector(joints[at(i)]);
+        lua_rawseti(call.lua(), -2, i + 1);
+    }
+    return 1;
+}
+
+int bone_handle(Call& call) {
+    const auto self = call.self<BonesObject>();
+    const Index bone = call.id("bone");
+    const auto result = call.create<HandleObject>();
+    const bool done = call.attempt_quick([&] {
+        require(bone < count_of(self->bones.handles), "there is no such bone",
+                ErrorCode::out_of_range);
+        result.set(std::make_shared<HandleObject>(
+            HandleObject{self->edit, self->bones.handles[at(bone)]}));
+    });
+    return done ? 1 : call.fail();
+}
+
+int bones_size(Call& call) {
+    return call.push(count_of(call.self<BonesObject>()->bones.handles));
+}
+
+int bones_text(Call& call) {
+    char text[48];
+    const int length = std::snprintf(text, sizeof text, "lissom.Bones: %d bones",
+                                     count_of(call.self<BonesObject>()->bones.handles));
+    return call.push(std::string_view(text, at(length)));
+}
+
+// ---- Descriptions
+
+const std::string kArm = R"(local bar = lissom.shapes.bar{ across = 4, along = 40 }
+local deformer = lissom.deformer(bar):pin(bar:region("bottom"))
+local arm = deformer:add_bones{ joints = { { 0, -1.5, 0 }, { 0, 0.5, 0 }, { 0, 2.5, 0 } } }
+)";
+
+const std::vector<Result> kSelfBones = {{"lissom.Bones", "bones", "The bones themselves."}};
+const std::vector<ErrorCode> kBoneErrors = {ErrorCode::invalid_argument, ErrorCode::not_finite,
+                                            ErrorCode::out_of_range, ErrorCode::handle_removed,
+                                            ErrorCode::topology_mismatch};
+
+std::vector<Function> bones_methods() {
+    return {{.name = "turn",
+             .body = turn_bone,
+             .summary = "Turns a bone, and those behind it, about its joint, within its limit. The "
+                        "surface follows at the next solve.",
+             .arguments = {id("bone", "Its number, from the base."),
+                           axis("axis", "The axis, in the world."),
+                           number("angle", "The angle.").in("degrees")},
+             .results = kSelfBones,
+             .errors = kBoneErrors,
+             .example = kArm + "arm:turn(2, \"z\", 60)\ndeformer:solve()"},
+            {.name = "reach",
+             .body = reach_with_bones,
+             .summary =
+                 "Inverse kinematics: turns bones so that the tip comes to a point, or as near to "
+                 "it as their lengths and limits let it.",
+             .arguments = {vector("target", "The point.")},
+             .options = {axis("axis",
+                              "Axis about which a stretched chain bends if the target lies "
+                              "along it.")
+                             .optional("one square to it"),
+                         integer("rounds", "Rounds over all joints, at most.")
+                             .defaults(ReachOptions().rounds)
+                             .between(1, 10'000)},
+             .results = {{"number", "distance", "The distance from the tip that is left."}},
+             .errors = kBoneErrors,
+             .example = kArm + "assert(arm:reach({ 1, 1.5, 0 }, { axis = \"z\" }) < 1e-4)\n"
+                               "deformer:solve()"},
+            {.name = "move",
+             .body = move_bones,
+             .summary = "Puts the base at a point; all bones go along as they are.",
+             .arguments = {vector("base", "The place of the first joint.")},
+             .results = kSelfBones,
+             .errors = kBoneErrors,
+             .example = kArm + "arm:move(0.5, -1.5, 0)\ndeformer:solve()"},
+            {.name = "reset",
+             .body = reset_bones,
+             .summary = "Puts all bones back to rest.",
+             .results = kSelfBones,
+             .errors = kBoneErrors,
+             .example = kArm + "arm:turn(2, \"z\", 60):reset()\n"
+                               "assert(math.abs(arm:joints()[3][2] - 2.5) < 1e-12)"},
+            {.name = "joints",
+             .body = bone_joints,
+             .summary = "The joints as they are now, by the poses of the handles.",
+             .results = {{"lissom.Vector[]", "joints", "From the base to the tip."}},
+             .errors = kBoneErrors,
+             .example = kArm + "assert(#arm:joints() == 3)"},
+            {.name = "handle",
+             .body = bone_handle,
+             .summary = "The handle of a bone: the surface that it holds.",
+             .arguments = {id("bone", "Its number, from the base.")},
+             .results = {{"lissom.Handle", "handle", "The handle."}},
+             .errors = kBoneErrors,
+             .example = kArm + "assert(#arm:handle(1):region() > 0)"}};
+}
+
+}  // namespace
+
+Function add_bones_method() {
+    return {.name = "add_bones",
+            .body = add_bones_of,
+            .summary =
+                "Adds a chain of bones. Each holds the surface around its middle as a handle, and "
+                "the solver finds how the rest follows: there are no weights to paint.",
+            .options = {points("joints",
+                               "Joints at rest within the surface, from the base to the "
+                               "tip; two at least."),
+                        numbers("limits",
+                                "For each bone the greatest angle from its rest direction, as seen "
+                                "from the bone before it, in degrees.")
+                            .optional("no limits"),
+                        number("share",
+                               "Part of each bone's length along which it holds the "
+                               "surface.")
+                            .defaults(BonesOptions().share)
+                            .above(0)
+                            .between(0, 1)},
+            .results = {{"lissom.Bones", "bones", "Turn them, then solve."}},
+            .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite,
+                       ErrorCode::handle_overlap, ErrorCode::handle_outside_region,
+                       ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
+            .example = kArm + "arm:turn(2, \"x\", 45)\ndeformer:solve()"};
+}
+
+Type bones_type() {
+    return {.name = "lissom.Bones",
+            .summary = "A chain of bones in a deformer. Its pose is that of its handles.",
+            .methods = bones_methods(),
+            .operators = {{"__len", bones_size, "#bones", "number of bones"},
+                          {"__tostring", bones_text, "tostring(bones)", "counts"}}};
+}
+
+}  // namespace lissom::lua

@@ -1,0 +1,55 @@
+/// Bones of a deformer: each holds the surface around its middle as a handle, and the solver finds
+/// how the rest follows.
+#pragma once
+
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/deform/bones/bone_chain.h"
+#include "kernel/deform/deformer.h"
+#include "kernel/deform/options.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+
+struct BonesOptions {
+    /// Joints in the rest pose, from the base to the tip, within the surface; two at least.
+    std::vector<Vec3> joints;
+    /// As of BoneChain.
+    std::vector<double> limits = {};
+    /// Part of each bone's length, around its middle, along which it holds the surface; above 0, at
+    /// most 1.
+    double share = 0.3;
+};
+
+/// A chain of bones in a deformer. Its pose is that of its handles: it has no other state.
+struct Bones {
+    std::vector<Vec3> joints;
+    std::vector<double> limits;
+    /// One for each bone.
+    std::vector<HandleId> handles;
+};
+
+/// Returns for each bone the vertices that it holds: those in `region` that are nearer to it than
+/// to the other bones, lie beside its middle share, and see it from within the surface. Coarse
+/// meshes, which have none there, give the nearest beside the bone's middle. Errors:
+/// invalid_argument for options out of range, and naming the bone, if no vertex sees it; as
+/// BoneChain; memory_limit; cancelled.
+std::vector<Region> bone_regions(const Mesh& rest, const Region& region,
+                                 const BonesOptions& options, const Context& context = {});
+
+/// Adds a handle for each bone. `mesh` is that of the deformer. Errors: as bone_regions and
+/// Deformer::add_handle; no handle is added then.
+Bones add_bones(Deformer& deformer, const Mesh& mesh, const BonesOptions& options,
+                const Context& context = {});
+
+/// Returns the chain as its handles are now. Errors: handle_removed.
+BoneChain chain_of(const Deformer& deformer, const Bones& bones);
+
+/// Moves the handles as a chain. Errors: handle_removed; invalid_argument for another number of
+/// bones.
+void set_bones(Deformer& deformer, const Bones& bones, const BoneChain& chain);
+
+}  // namespace lissom
