@@ -207,13 +207,18 @@ function styling.long(head, o, routes, parting)
 end
 
 --- Cuts hair along a hem, as hair:cut takes it, in locks that end within `ragged` metres of it; more than
--- half of the hairs are layers that end higher, so that the hair thins out.
+--- half of the hairs are layers that end higher, so that the hair thins out. Guides stay the longest of their
+--- locks.
 function styling.ragged_hem(hair, scalp, hem, ragged, seed)
     local higher = {}
     for i, place in ipairs(hem) do higher[i] = { place[1], place[2] + 2.5 * ragged } end
-    hair:cut{ hem = hem, scalp = scalp, jitter = 0.4 * ragged, guide_jitter = 0.7 * ragged, seed = seed }
+    local function follows(strand) return hair:root(strand).guide ~= hair:root(strand).id end
+    local function is_layer(strand) return follows(strand) and styling.chance(strand, seed) < 0.6 end
+    hair:cut{ hem = hem, scalp = scalp, guide_jitter = 0.7 * ragged, seed = seed }
+    hair:cut{ hem = hem, scalp = scalp, jitter = 0.4 * ragged, guide_jitter = 0.7 * ragged, seed = seed,
+        mask = function(strand) return follows(strand) and 1 or 0 end }
     return hair:cut{ hem = higher, scalp = scalp, jitter = 2.5 * ragged, seed = seed + 1,
-        mask = function(strand) return styling.chance(strand, seed) < 0.6 and 1 or 0 end }
+        mask = function(strand) return is_layer(strand) and 1 or 0 end }
 end
 
 --- Waves of long hair that ends at one height, in locks; `options` are those of hair:wave. Turns are counted
@@ -281,7 +286,7 @@ styling.crown_to_hairline = {
 function styling.stubble(head, o, options)
     local style = lissom.hairstyle(head, { scalp = o.scalp, gravity = 0, resolution = o.resolution })
     styling.streams(style, styling.crown_to_hairline)
-    local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed,
+    local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed + 101,
         length = options.length, density = options.density, layer = 0.001, clearance = 0.0012, lift = 1,
         variation = 0.15, segment = 0.1, min_speed = 0.01 }
     return style, styling.set_width(hair:resample{ count = 5 }, 0.00024, o.count)

@@ -31,7 +31,7 @@ return styling.preset(..., {
                 return forwards and front or 1 - front
             end)
             return style, styling.straight(style, o, v, { density = rooted,
-                count = math.floor(share * o.count) })
+                count = math.floor(share * o.count), seed = forwards and v.seed + 101 or v.seed })
         end
         local style, hair = part(behind, 0.65, false)
         local front_style, front = part(before, 0.35, true)

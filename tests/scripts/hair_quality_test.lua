@@ -161,3 +161,19 @@ on_heads("hair stays on its side of a parting", function(head)
     expect.truthy(crossing_share(style, hair) < 0.005)
     expect_sound(style, hair)
 end)
+
+-- One strand of a thousand may lie in the head.
+test("an engine finds no fault with the presets: roots, guides, points, places", function()
+    local head = lissom.shapes.head{ vertices = 3000 }
+    for _, name in ipairs{ "afro", "bob", "braid", "bun", "buzz", "centre_part", "cornrows", "crop",
+        "crown_braid", "half_up", "high_ponytail", "locs", "long_straight", "messy", "mohawk", "pigtails",
+        "pixie", "ponytail", "ringlets", "side_part", "slick_back", "spiky", "topknot", "two_braids",
+        "undercut", "waves" } do
+        local preset = require("presets." .. name)
+        local style, hair = preset.grow(head, {}, { count = 1500, resolution = 8000 })
+        for _, finding in ipairs(hair:check{ target = "unreal", head = style }.findings) do
+            local is_rare = finding.code == "inside_head" and finding.count <= 0.001 * #hair
+            expect.truthy(is_rare, name .. ": " .. finding.code .. " " .. finding.count)
+        end
+    end
+end)

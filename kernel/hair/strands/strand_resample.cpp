@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -253,6 +254,22 @@ void keep_up_to(const Strands& strands, const Ends& ends, StrandValues<Value>& v
                numbers(values.values));
 }
 
+// A strand follows a guide that was shortened no farther than to its end.
+void end_with_guides(const Strands& strands, const std::vector<float>& parts,
+                     StrandGuides& guides) {
+    std::unordered_map<std::uint32_t, float> ends;
+    for (std::size_t s = 0; s < guides.ids.size(); ++s) {
+        const auto strand = index_of(s);
+        if (parts[s] < 1.0f && guides.ids[s] == strands.id(strand)) {
+            ends[guides.ids[s]] = static_cast<float>(length(strands.strand(strand)));
+        }
+    }
+    for (std::size_t s = 0; s < guides.ids.size() && !ends.empty(); ++s) {
+        const auto end = ends.find(guides.ids[s]);
+        if (end != ends.end()) guides.arcs[s] = std::min(guides.arcs[s], end->second);
+    }
+}
+
 }  // namespace
 
 Strands at_places(const Strands& strands, const Find& find, const Context& context) {
@@ -294,6 +311,7 @@ Strands shortened(const Strands& strands, const KeptPart& part, const Context& c
         strands, [&](auto& values) { keep_up_to(strands, ends, values, context); }, result);
     StrandGuides guides = strands.guides();
     for (std::size_t s = 0; s < guides.arcs.size(); ++s) guides.arcs[s] *= ends.parts[s];
+    end_with_guides(result, ends.parts, guides);
     result.set_guides(std::move(guides));
     return result;
 }
