@@ -44,7 +44,7 @@ class BoneHolds {
   public:
     BoneHolds(const Mesh& rest, const Region& region, const BonesOptions& options,
               const Context& context)
-        : rest_(rest), options_(options), tree_(rest, context) {
+        : options_(options), tree_(rest, context) {
         for (const Index v : region.vertices()) {
             if (v % 256 == 0) context.checkpoint();
             const BoneSide side = side_of(options.joints, rest.position(v));
@@ -80,7 +80,6 @@ class BoneHolds {
         return !hit || hit->distance > distance * (1.0 - 1e-3);
     }
 
-    const Mesh& rest_;
     const BonesOptions& options_;
     SpatialTree tree_;
     std::vector<std::pair<Index, BoneSide>> beside_;
