@@ -19,6 +19,8 @@ constexpr double kLinkRate = 190.0;
 constexpr double kGustRates[] = {0.6, 1.7, 4.1};
 constexpr double kGustLength = 0.5;
 constexpr Index kRodGrain = 4;
+// Of memory, for each point: rods, and places before, during and after a step.
+constexpr std::size_t kPlaceBytes = 320;
 // Of the box around hair at rest, on each side: hair that swings farther meets no body.
 constexpr double kRoom = 0.15;
 
@@ -65,8 +67,11 @@ class HairDynamics::Simulation {
   public:
     Simulation(HairRig rig, const BodyDistance& body, const HairDynamicsOptions& options,
                const Context& context)
-        : rig_((require_lists(rig), std::move(rig))), options_(options), rods_(rig_) {
-        charge_ = context.charge(memory_bytes(), "the dynamics of hair");
+        : rig_((require_lists(rig), std::move(rig))),
+          options_(options),
+          charge_(context.charge(rig_.memory_bytes() + kPlaceBytes * rig_.curves.size(),
+                                 "the dynamics of hair")),
+          rods_(rig_) {
         reset();
         if (body) body_ = BodyGrid(body, reach_of_hair(), context);
         measure_gaps(context);
@@ -289,11 +294,11 @@ class HairDynamics::Simulation {
     HairRig rig_;
     BodyGrid body_;
     HairDynamicsOptions options_;
+    MemoryCharge charge_;
     Rods rods_;
     // Distances of points to the body at rest.
     std::vector<double> gap_;
     State state_;
-    MemoryCharge charge_;
 };
 
 HairDynamics::HairDynamics(HairRig rig, const BodyDistance& body,

@@ -13,6 +13,8 @@ namespace lissom {
 namespace {
 
 constexpr int kMaxLinks = 8;
+// Of memory, for each point of a guide and for each of its links.
+constexpr std::size_t kPointBytes = 160, kLinkBytes = 96;
 
 void require_rig(const GuideSet& set, const HairRigOptions& options) {
     require(set.guide_count() > 0 && set.points >= 3, "a rig needs guides of three points or more");
@@ -182,6 +184,9 @@ std::size_t HairRig::memory_bytes() const {
 
 HairRig make_hair_rig(const GuideSet& set, const HairRigOptions& options, const Context& context) {
     require_rig(set, options);
+    // Entries of maps while links are found, and the lists of the rig.
+    const std::size_t each = kPointBytes + kLinkBytes * static_cast<std::size_t>(options.links);
+    const MemoryCharge charge = context.charge(set.curves.size() * each, "the rig of hair");
     HairRig rig;
     rig.points = set.points;
     rig.curves = set.curves;

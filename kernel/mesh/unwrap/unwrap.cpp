@@ -27,6 +27,8 @@ constexpr double kCrease = 1.0 / 3.0, kNoCrease = 2.0, kSmallPart = 0.002;
 constexpr double kSameStretch = 1.02;
 // Diagonal of charts that are not joined to longer ones, over the root of the whole area.
 constexpr double kLongChart = 1.3;
+// Of memory, for each corner: the graph of faces, charts and their coordinates.
+constexpr std::size_t kCornerBytes = 320;
 // Faces of pairs that were not flat together, over those of the mesh, up to which pairs are tried.
 constexpr double kVainFaces = 4.0;
 
@@ -236,6 +238,8 @@ double seams_of(const FaceGraph& graph, const std::vector<Vec2>& uv) {
 
 Unwrapping unwrap(const Mesh& mesh, const UnwrapOptions& options, const Context& context) {
     require_unwrap(mesh, options);
+    const MemoryCharge charge =
+        context.charge(kCornerBytes * at(mesh.topology().corner_count()), "the charts of a mesh");
     ChartMaker maker(mesh, options, context);
     std::vector<FlatChart> charts = maker.run();
     Unwrapping result;

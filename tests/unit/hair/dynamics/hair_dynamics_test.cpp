@@ -284,6 +284,17 @@ TEST_CASE("hair dynamics: bad options and rigs are refused") {
     CHECK(error_of([&] { HairDynamics hair(linked); }).code() == ErrorCode::invalid_argument);
 }
 
+TEST_CASE("hair dynamics: rig and motion count on the account") {
+    const GuideSet set = hair_on_ball(60);
+    ContextOptions small;
+    small.memory_limit = 10'000;
+    CHECK(error_of([&] { make_hair_rig(set, {}, Context(small)); }).code() ==
+          ErrorCode::memory_limit);
+    const HairRig rig = make_hair_rig(set);
+    CHECK(error_of([&] { HairDynamics hair(rig, {}, {}, Context(small)); }).code() ==
+          ErrorCode::memory_limit);
+}
+
 TEST_CASE("hair rig: lengths, frames and lengths of strands are those of the guides") {
     const GuideSet set = curly_guides(5);
     const HairRig rig = make_hair_rig(set);

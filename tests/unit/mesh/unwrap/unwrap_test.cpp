@@ -228,6 +228,10 @@ TEST_CASE("unwrap: written coordinates take the place of old ones, bad input cha
           UnwrapOptions{.crease = -1.0}, UnwrapOptions{.gap = 0.0}, UnwrapOptions{.gap = 0.5}}) {
         CHECK(error_of([&] { (void)unwrap(box, bad); }).code() == ErrorCode::invalid_argument);
     }
+    ContextOptions small;
+    small.memory_limit = 1000;
+    CHECK(error_of([&] { (void)unwrap(box, {}, Context(small)); }).code() ==
+          ErrorCode::memory_limit);
     Context cancelled;
     cancelled.cancel();
     CHECK(error_of([&] { (void)unwrap(box, {}, cancelled); }).code() == ErrorCode::cancelled);
