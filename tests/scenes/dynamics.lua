@@ -83,3 +83,14 @@ test("without hair or a head the tool says what to do", function()
     local alone = hand.new("dynamics", { hair = hair })
     expect.error(function() alone.host:press{ x = 600, y = 400 } end, "no head")
 end)
+
+test("ties of a script hold hair, and bad ones are refused", function()
+    local set = hair:guide_set{ count = 12 }
+    local tip = set:guides():points()
+    local x, y, z = tip:get(16)
+    local function rig(ties) return set:dynamics{ ties = ties }:rig() end
+    expect.equal(#rig{ { name = "clip", center = { x, y, z } } }.ties, 1)
+    expect.truthy(#rig{ { center = { x, y, z }, radius = 0.5 } }.ties[1].points > 100)
+    expect.error(function() rig{ {} } end, "center")
+    expect.error(function() rig{ { center = { 9, 9, 9 } } } end, "holds no point")
+end)

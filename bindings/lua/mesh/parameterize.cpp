@@ -52,6 +52,9 @@ int unwrap_mesh(Call& call) {
     options.gap = call.number("gap");
     auto& made = call.hold<Unwrapping>();
     const int results = change_mesh(call, [&](Mesh& mesh) {
+        require(*name && (!chart_name || *chart_name), "an attribute needs a name");
+        require(!chart_name || std::string_view(chart_name) != name,
+                "coordinates and charts need attributes of different names");
         made = unwrap(mesh, options, call.context());
         write_unwrapping(mesh, made, name);
         if (chart_name) {

@@ -12,7 +12,11 @@
 namespace lissom {
 namespace {
 
-constexpr double kFrameRate = 30.0, kMostSeconds = 10.0, kMostSpeed = 1000.0;
+constexpr double kFrameRate = 30.0, kMostSeconds = 10.0;
+// A hurricane, and ten times the pull of the Earth: stronger ones tear rods apart in a step.
+constexpr double kMostWind = 60.0, kMostGravity = 100.0;
+// Metres: lengths of guides, and the farthest place of head and hair.
+constexpr double kShortGuide = 1e-4, kLongGuide = 100.0, kFarthest = 1e5;
 // Fastest swing of two linked points, radians a second.
 constexpr double kLinkRate = 190.0;
 // Gusts: rates of three waves, and the wind's way in metres from crest to crest.
@@ -51,16 +55,16 @@ Affine between(const Affine& from, const Affine& to, double part) {
 void require_dynamics(const HairDynamicsOptions& options) {
     require(options.gravity.allFinite() && options.wind.allFinite(),
             "gravity and wind are finite numbers", ErrorCode::not_finite);
-    require(options.gravity.norm() <= kMostSpeed, "gravity is at most 1000 m/s^2");
-    require(options.wind.norm() <= kMostSpeed, "wind is at most 1000 m/s");
+    require(options.gravity.norm() <= kMostGravity, "gravity is at most 100 m/s^2");
+    require(options.wind.norm() <= kMostWind, "wind is at most 60 m/s");
     require(lies_in(options.gusts, 0.0, 1.0), "gusts are a part of the wind from 0 to 1");
     require(lies_in(options.stiffness, 0.001, 10.0), "stiffness is a length of 1 mm to 10 m");
     require(lies_in(options.hold, 0.0, 1.0), "hold is from 0 to 1");
-    require(lies_in(options.drag, 0.0, 1000.0), "drag is from 0 to 1000");
+    require(lies_in(options.drag, 0.0, 50.0), "drag is from 0 to 50");
     require(lies_in(options.cohesion, 0.0, 1.0), "cohesion is from 0 to 1");
     require(lies_in(options.friction, 0.0, 10.0), "friction is from 0 to 10");
     require(lies_in(options.clearance, 0.0, 1.0), "clearance is from 0 to 1 metre");
-    require(options.substeps >= 1 && options.substeps <= 1000, "there are 1 to 1000 substeps");
+    require(options.substeps >= 4 && options.substeps <= 1000, "there are 4 to 1000 substeps");
 }
 
 class HairDynamics::Simulation {
@@ -156,11 +160,25 @@ class HairDynamics::Simulation {
         Affine back;
     };
 
+    static void require_metres(const HairRig& rig) {
+        for (std::size_t first = 0; first < rig.curves.size(); first += at(rig.points)) {
+            double length = 0.0, far = 0.0;
+            for (std::size_t k = first; k < first + at(rig.points); ++k) {
+                far = std::max(far, double{rig.curves[k].norm()});
+                if (k > first) length += (rig.curves[k] - rig.curves[k - 1]).norm();
+            }
+            require(length >= kShortGuide && length <= kLongGuide && far <= kFarthest,
+                    "hair moves in metres: a guide is shorter than .1 mm, longer than 100 m, or "
+                    "farther from the origin than 100 km; give the strands another unit or place");
+        }
+    }
+
     static void require_lists(const HairRig& rig) {
         const std::size_t points = rig.curves.size();
         require(rig.points >= 3 && points == at(rig.guide_count()) * at(rig.points) &&
                     rig.root_frames.size() == at(rig.guide_count()),
                 "the lists of the rig have other lengths than its guides");
+        require_metres(rig);
         for (const HairLink& link : rig.links) {
             require(link.a >= 0 && link.b >= 0 && at(link.a) < points && at(link.b) < points,
                     "a link of the rig has no such point");
@@ -328,6 +346,7 @@ void HairDynamics::step(double seconds, const Affine& head, const Context& conte
     require(seconds > 0.0 && seconds <= kMostSeconds, "a step is above 0 and at most 10 seconds");
     require(head.linear.allFinite() && head.translation.allFinite(),
             "the place of the head is not finite", ErrorCode::not_finite);
+    require(head.translation.norm() <= kFarthest, "the head is farther away than 100 km");
     require(is_rigid(head),
             "the head of moving hair turns and moves; scale or bend it by strands:follow");
     simulation_->step(seconds, head, context);

@@ -16,9 +16,9 @@
 namespace lissom {
 
 struct HairDynamicsOptions {
-    /// Metres per second squared, in the world; at most 1000 long.
+    /// Metres per second squared, in the world; at most 100 long.
     Vec3 gravity{0.0, -9.81, 0.0};
-    /// Metres per second, in the world; at most 1000 long.
+    /// Metres per second, in the world; at most 60 long.
     Vec3 wind = Vec3::Zero();
     /// Part of the wind that comes and goes; 0 to 1.
     double gusts = 0.5;
@@ -28,7 +28,7 @@ struct HairDynamicsOptions {
     /// Part of the weight at rest that the style carries: with 1 it stays as it is until head or
     /// wind move it; 0 to 1.
     double hold = 0.0;
-    /// Rate at which hair takes the speed of the air, 1 / s; 0 to 1000.
+    /// Rate at which hair takes the speed of the air, 1 / s; 0 to 50.
     double drag = 4.0;
     /// Strength of links between guides that are not bound; 0 to 1.
     double cohesion = 0.2;
@@ -36,7 +36,7 @@ struct HairDynamicsOptions {
     double friction = 0.4;
     /// Metres that points stay off the body, if they did so at rest; 0 to 1.
     double clearance = 0.001;
-    /// Steps in a thirtieth of a second; 1 to 1000.
+    /// Steps in a thirtieth of a second; 4 to 1000.
     int substeps = 20;
     /// Of the gusts.
     std::uint64_t seed = 1;
@@ -69,7 +69,8 @@ class HairDynamics {
   public:
     /// `body` is a distance in the space of the head that hair does not enter; it is asked here
     /// alone, at the points of a grid of some millimetres. Errors: as require_dynamics;
-    /// invalid_argument for a rig whose lists do not fit; memory_limit; cancelled.
+    /// invalid_argument for a rig whose lists do not fit, and for guides that
+    /// cannot be in metres; memory_limit; cancelled.
     explicit HairDynamics(HairRig rig, const BodyDistance& body = {},
                           const HairDynamicsOptions& options = {}, const Context& context = {});
     HairDynamics(HairDynamics&&) noexcept;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/unwrap/chart_packing.h"
 #include "kernel/mesh/unwrap/face_graph.h"
 #include "kernel/mesh/unwrap/flat_chart.h"
@@ -27,6 +28,8 @@ constexpr double kCrease = 1.0 / 3.0, kNoCrease = 2.0, kSmallPart = 0.002;
 constexpr double kSameStretch = 1.02;
 // Diagonal of charts that are not joined to longer ones, over the root of the whole area.
 constexpr double kLongChart = 1.3;
+// Sizes of meshes whose areas and their squares are numbers.
+constexpr double kSmallest = 1e-20, kLargest = 1e20;
 // Of memory, for each corner: the graph of faces, charts and their coordinates.
 constexpr std::size_t kCornerBytes = 320;
 // Faces of pairs that were not flat together, over those of the mesh, up to which pairs are tried.
@@ -34,6 +37,9 @@ constexpr double kVainFaces = 4.0;
 
 void require_unwrap(const Mesh& mesh, const UnwrapOptions& options) {
     require(mesh.face_count() > 0, "the mesh has no faces to unwrap", ErrorCode::mesh_empty);
+    const double size = bounds(mesh).diagonal();
+    require(size == 0.0 || (size > kSmallest && size < kLargest),
+            "the mesh is too small or too large to be laid out; scale it to about 1");
     require(options.stretch > 1.0 && std::isfinite(options.stretch),
             "the stretch of charts is a factor above 1");
     require(options.crease >= 0.0 && std::isfinite(options.crease),

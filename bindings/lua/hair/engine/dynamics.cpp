@@ -45,7 +45,7 @@ struct TieSpec {
 
 std::span<const TieSpec> read_ties(Call& call) {
     if (!call.has("ties")) return {};
-    const std::size_t count = call.object_count("ties");
+    const std::size_t count = raw_length(call.lua(), call.stack_index("ties"));
     auto* const ties = call.scratch<TieSpec>(count);
     for (std::size_t i = 0; i < count; ++i) {
         call.select_item("ties", index_of(i) + 1);
@@ -317,7 +317,7 @@ std::vector<Parameter> motion_fields(bool defaults) {
             d.hold),
         own(number("drag", "Rate at which hair takes the speed of the air.")
                 .in("1/s")
-                .between(0, 1000),
+                .between(0, 50),
             d.drag),
         own(number("cohesion", "Strength of links between guides that are not bound.")
                 .between(0, 1),
@@ -326,7 +326,7 @@ std::vector<Parameter> motion_fields(bool defaults) {
         own(meters("clearance", "Distance that hair stays off the body, if it did so at rest.")
                 .between(0, 1),
             d.clearance),
-        own(integer("substeps", "Steps in a thirtieth of a second.").between(1, 1000), d.substeps),
+        own(integer("substeps", "Steps in a thirtieth of a second.").between(4, 1000), d.substeps),
         own(integer("seed", "Seed of the gusts."), static_cast<int>(d.seed))};
 }
 

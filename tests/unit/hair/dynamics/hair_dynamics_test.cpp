@@ -254,6 +254,9 @@ TEST_CASE("hair dynamics: after an error the hair is as before") {
     CHECK(error_of([&] {
               hair.step(0.1, translation({std::nan(""), 0.0, 0.0}));
           }).code() == ErrorCode::not_finite);
+    CHECK(error_of([&] {
+              hair.step(0.1, translation({1e15, 0.0, 0.0}));
+          }).code() == ErrorCode::invalid_argument);
     CHECK(error_of([&] { hair.set_options({.substeps = 0}); }).code() ==
           ErrorCode::invalid_argument);
     CHECK(hair.curves() == before);
@@ -276,6 +279,9 @@ TEST_CASE("hair dynamics: bad options and rigs are refused") {
     CHECK(error_of([&] {
               moving(set, {.wind = {inf, 0.0, 0.0}});
           }).code() == ErrorCode::not_finite);
+    GuideSet tiny = set;
+    for (Eigen::Vector3f& p : tiny.curves) p *= 1e-6f;
+    CHECK(error_of([&] { moving(tiny); }).code() == ErrorCode::invalid_argument);
     HairRig torn = make_hair_rig(set);
     torn.curves.pop_back();
     CHECK(error_of([&] { HairDynamics hair(torn); }).code() == ErrorCode::invalid_argument);
