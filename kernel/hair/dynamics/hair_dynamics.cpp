@@ -16,7 +16,7 @@ constexpr double kFrameRate = 30.0, kMostSeconds = 10.0;
 // A hurricane, and ten times the pull of the Earth: stronger ones tear rods apart in a step.
 constexpr double kMostWind = 60.0, kMostGravity = 100.0;
 // Metres: lengths of guides, and the farthest place of head and hair.
-constexpr double kShortGuide = 1e-4, kLongGuide = 100.0, kFarthest = 1e5;
+constexpr double kShortGuide = 1e-4, kLongGuide = 100.0, kFarthestHair = 1e5;
 // Fastest swing of two linked points, radians a second.
 constexpr double kLinkRate = 190.0;
 // Gusts: rates of three waves, and the wind's way in metres from crest to crest.
@@ -167,7 +167,7 @@ class HairDynamics::Simulation {
                 far = std::max(far, double{rig.curves[k].norm()});
                 if (k > first) length += (rig.curves[k] - rig.curves[k - 1]).norm();
             }
-            require(length >= kShortGuide && length <= kLongGuide && far <= kFarthest,
+            require(length >= kShortGuide && length <= kLongGuide && far <= kFarthestHair,
                     "hair moves in metres: a guide is shorter than .1 mm, longer than 100 m, or "
                     "farther from the origin than 100 km; give the strands another unit or place");
         }
@@ -346,7 +346,7 @@ void HairDynamics::step(double seconds, const Affine& head, const Context& conte
     require(seconds > 0.0 && seconds <= kMostSeconds, "a step is above 0 and at most 10 seconds");
     require(head.linear.allFinite() && head.translation.allFinite(),
             "the place of the head is not finite", ErrorCode::not_finite);
-    require(head.translation.norm() <= kFarthest, "the head is farther away than 100 km");
+    require(head.translation.norm() <= kFarthestHair, "the head is farther away than 100 km");
     require(is_rigid(head),
             "the head of moving hair turns and moves; scale or bend it by strands:follow");
     simulation_->step(seconds, head, context);

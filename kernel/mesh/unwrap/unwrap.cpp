@@ -31,7 +31,7 @@ constexpr double kLongChart = 1.3;
 // Sizes of meshes whose areas and their squares are numbers.
 constexpr double kSmallest = 1e-20, kLargest = 1e20;
 // Of memory, for each corner: the graph of faces, charts and their coordinates.
-constexpr std::size_t kCornerBytes = 320;
+constexpr std::size_t kChartBytes = 320;
 // Faces of pairs that were not flat together, over those of the mesh, up to which pairs are tried.
 constexpr double kVainFaces = 4.0;
 
@@ -245,7 +245,7 @@ double seams_of(const FaceGraph& graph, const std::vector<Vec2>& uv) {
 Unwrapping unwrap(const Mesh& mesh, const UnwrapOptions& options, const Context& context) {
     require_unwrap(mesh, options);
     const MemoryCharge charge =
-        context.charge(kCornerBytes * at(mesh.topology().corner_count()), "the charts of a mesh");
+        context.charge(kChartBytes * at(mesh.topology().corner_count()), "the charts of a mesh");
     ChartMaker maker(mesh, options, context);
     std::vector<FlatChart> charts = maker.run();
     Unwrapping result;
