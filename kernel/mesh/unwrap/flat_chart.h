@@ -22,8 +22,6 @@ struct FlatChart {
     /// Greatest change of a length by the map at each triangle, as a factor of 1 or more, and its
     /// area on the surface.
     std::vector<double> stretches, areas;
-    /// Faces with a triangle that is turned over.
-    std::vector<Index> flipped;
 
     double area() const;
     /// Returns the stretch that all but a fiftieth of the area keeps below.

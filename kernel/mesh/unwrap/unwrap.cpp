@@ -204,7 +204,6 @@ void measure(const std::vector<FlatChart>& charts, Unwrapping& result) {
             area += chart.areas[t];
             sum += chart.areas[t] * chart.stretches[t];
         }
-        result.flipped.insert(result.flipped.end(), chart.flipped.begin(), chart.flipped.end());
         for (const Triangle& t : chart.triangles) {
             const Vec2 u = chart.uv[at(t[1])] - chart.uv[at(t[0])];
             const Vec2 v = chart.uv[at(t[2])] - chart.uv[at(t[0])];
@@ -220,7 +219,21 @@ void measure(const std::vector<FlatChart>& charts, Unwrapping& result) {
         above += part;
         if (above > 0.02 * area) break;
     }
-    std::sort(result.flipped.begin(), result.flipped.end());
+}
+
+// Faces that run clockwise in the square.
+std::vector<Index> flipped_faces(const Topology& topology, const std::vector<Vec2>& uv) {
+    std::vector<Index> faces;
+    for (Index f = 0; f < topology.face_count(); ++f) {
+        const std::size_t first = at(topology.first_corner(f)), count = topology.face(f).size();
+        double doubled = 0.0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const Vec2 a = uv[first + k] - uv[first], b = uv[first + (k + 1) % count] - uv[first];
+            doubled += a.x() * b.y() - a.y() * b.x();
+        }
+        if (doubled < 0.0) faces.push_back(f);
+    }
+    return faces;
 }
 
 bool same_place(const Vec2& a, const Vec2& b) {
@@ -265,6 +278,7 @@ Unwrapping unwrap(const Mesh& mesh, const UnwrapOptions& options, const Context&
         }
     }
     measure(charts, result);
+    result.flipped = flipped_faces(mesh.topology(), result.uv);
     result.seam_length = seams_of(maker.graph(), result.uv);
     return result;
 }

@@ -40,7 +40,7 @@ struct Unwrapping {
     double mean_stretch = 1.0, stretch = 1.0;
     /// Length on the surface of the seams within it; open boundaries do not count.
     double seam_length = 0.0;
-    /// Faces with a triangle that is turned over, ascending.
+    /// Faces that are turned over in the square, ascending.
     std::vector<Index> flipped;
 };
 
