@@ -3,6 +3,9 @@ local lissom = require "lissom"
 
 local hairdo = {}
 
+-- Colour of heads in pictures of hair.
+hairdo.skin = "#cfae9a"
+
 -- With two arguments in every Lua.
 local atan2 = rawget(math, "atan2") or math.atan
 
@@ -40,9 +43,9 @@ function hairdo.head(params)
     return lissom.load(params.head)
 end
 
--- The scalp of a head in the unit of the parameters.
-function hairdo.scalp(head, params)
-    return lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil })
+-- The scalp of a head in the unit of the parameters; its hair thins out over `softness` metres, or the usual.
+function hairdo.scalp(head, params, softness)
+    return lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil, softness = softness })
 end
 
 -- A style with the unit and resolution of the parameters; `options` are further ones of lissom.hairstyle.
@@ -274,7 +277,7 @@ function hairdo.camera(style, hair, side)
     local turn = ({ front = 0, left = 90, back = 180, right = -90 })[side] or 35
     local rise = side == "three-quarter" and 12 or 4
     local fov = 24
-    local distance = 0.92 * radius / math.sin(math.rad(fov / 2))
+    local distance = 0.8 * radius / math.sin(math.rad(fov / 2))
     local front, left, up = scalp:front(), scalp:left(), scalp:up()
     local eye = {}
     for k = 1, 3 do
@@ -293,14 +296,14 @@ function hairdo.finish(style, hair, params, rings, look)
     style:save(path .. ".json")
     hair:save(path .. "." .. params.format)
     if not params.pictures then return end
-    local meshes, colors = { style:head() }, { "clay" }
+    local meshes, colors = { style:head() }, { hairdo.skin }
     for _, ring in ipairs(rings or {}) do
         meshes[#meshes + 1], colors[#colors + 1] = ring, "#2a1c28"
     end
     for _, side in ipairs{ "front", "left", "back", "three-quarter" } do
         lissom.render{
             meshes = meshes, color = colors, strands = hair, camera = hairdo.camera(style, hair, side),
-            size = { params.size, params.size }, background = "#c8ccd2", hair = look,
+            size = { params.size, params.size }, supersample = 2, background = "#c8ccd2", hair = look,
             file = path .. "_" .. side .. ".png",
         }
     end
@@ -312,7 +315,7 @@ function hairdo.detail(hair)
     hair:clump{ clumps = 2500, strength = 0.3 }
     hair:noise{ amplitude = 0.0016, across = 0.02, along = 0.11 }
     hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
-    return hair:taper{ tip = 0.4, start = 0.6 }
+    return hair:taper{ tip = 0.12, start = 0.35 }
 end
 
 return hairdo

@@ -325,16 +325,39 @@ end
 function styling.finish(hair, width, noise, all)
     hair:noise{ amplitude = noise or 0.001, across = 0.02, along = 0.11 }
     hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
-    return styling.set_width(hair, width, all):taper{ tip = 0.4, start = 0.6 }
+    return styling.thin_out(styling.set_width(hair, width, all))
+end
+
+--- Thins hair out towards the tips: a tip as thick as the rest makes a hem of steps.
+function styling.thin_out(hair)
+    return hair:taper{ tip = 0.12, start = 0.35 }
 end
 
 -- Edges of hair, the options of hair:soften_edge: of hair that is tied or combed back, whose edge is seen,
 -- with baby hair; of loose hair; and of short hair, which fades out.
 local edges = {
-    tied = { width = 0.5, length = 1, baby = 0.3, stray = 0.004 },
-    loose = { width = 0.6, length = 1, baby = 0.08 },
-    short = { width = 0.7, length = 0.55, baby = 0 },
+    tied = { width = 0.4, length = 0.9, baby = 0.4, stray = 0.005, reach = 0.026 },
+    loose = { width = 0.5, length = 0.9, baby = 0.2, reach = 0.022 },
+    short = { width = 0.4, length = 0.25, baby = 0.1, baby_length = 0.006, stray = 0.001, reach = 0.028 },
 }
+
+--- Width in metres of the band over which hair thins out at the hairline of a preset.
+styling.softness = 0.02
+
+-- Hair that lies in no order reflects light in no narrow band.
+local sheen = {
+    short = { primary = 0.09, primary_exponent = 12, secondary = 0.36, secondary_exponent = 8,
+        clump_tone = 0.06 },
+}
+
+--- How hair of an edge looks, the option `hair` of lissom.render; `own` counts before it.
+function styling.look(edge, own)
+    local all = {}
+    for _, from in ipairs{ sheen[edge] or {}, own or {} } do
+        for key, value in pairs(from) do all[key] = value end
+    end
+    return all
+end
 
 --- Softens the edge of the hair of a style: "tied", "loose" or "short".
 function styling.soften(style, hair, edge, seed)
@@ -367,11 +390,11 @@ function styling.preset(module, preset)
     function preset.grow(head, values, options)
         local all = { count = 30000, resolution = 50000 }
         for key, value in pairs(options or {}) do all[key] = value end
-        all.scalp = all.scalp or lissom.scalp(head)
+        all.scalp = all.scalp or lissom.scalp(head, { softness = styling.softness })
         local full = complete(preset, values)
         local style, hair, look, meshes = preset.make(head, full, all)
         if preset.edge then styling.soften(style, hair, preset.edge, full.seed) end
-        return style, hair, look, meshes
+        return style, hair, styling.look(preset.edge, look), meshes
     end
     if module == "presets." .. preset.name then return preset end
     local params = hairdo.params{ name = preset.name, count = 30000, more = preset.schema }
@@ -379,7 +402,8 @@ function styling.preset(module, preset)
     for name in pairs(preset.schema) do values[name] = params[name] end
     local head = hairdo.head(params)
     local style, hair, look, meshes = preset.grow(head, values,
-        { scalp = hairdo.scalp(head, params), resolution = params.resolution, count = params.count })
+        { scalp = hairdo.scalp(head, params, styling.softness), resolution = params.resolution,
+            count = params.count })
     local files = {}
     for _, key in ipairs{ "out", "name", "format", "pictures", "size" } do files[key] = params[key] end
     hairdo.finish(style, hair, files, meshes, look)

@@ -44,8 +44,8 @@ return styling.preset(..., {
         hair:cut{ ellipsoid = { center = { 0, 0.02, -0.015 }, radii = { 0.05 + h, 0.065 + h, 0.068 + h } },
             scalp = scalp, jitter = v.ragged }
         hair:push_out{ head = style }
-        styling.set_width(hair, 0.0002):taper{ tip = 0.4, start = 0.6 }
-        return style, hair, { color = "#2a1d16", clump_tone = 0.25, primary = 0.08, secondary = 0.3,
+        styling.thin_out(styling.set_width(hair, 0.0002))
+        return style, hair, { color = "#2a1d16", clump_tone = 0.15, primary = 0.04, secondary = 0.3,
             scalp_tint = 0.9, unit = scalp:unit() }
     end,
 })

@@ -18,7 +18,7 @@ return styling.preset(..., {
             return v.length * (1 - v.fade * (1 - styling.smooth(-30, 40, elevation)))
         end)
         local style, hair = styling.stubble(head, o, { length = lengths, seed = v.seed })
-        hair:noise{ amplitude = 0.0008, across = 0.02, along = 0.11 }:taper{ tip = 0.4, start = 0.6 }
-        return style, hair, { color = "#33241a", primary = 0.1, scalp_tint = 0.8, unit = scalp:unit() }
+        styling.thin_out(hair:noise{ amplitude = 0.0008, across = 0.02, along = 0.11 })
+        return style, hair, { color = "#33241a", primary = 0.05, scalp_tint = 0.8, unit = scalp:unit() }
     end,
 })

@@ -67,8 +67,8 @@ return styling.preset(..., {
         end
         braids:push_out{ head = style, clearance = 0.0012, ramp = 0.004 }
         braids:frizz{ amplitude = 0.00022, wavelength = 0.008, flyaway = 2 }
-        styling.set_width(braids, 0.00022):taper{ tip = 0.4, start = 0.6 }
-        return style, braids, { color = "#1f1511", primary = 0.12, scalp_tint = 0.35, clump_tone = 0.1,
+        styling.thin_out(styling.set_width(braids, 0.00022))
+        return style, braids, { color = "#1f1511", primary = 0.08, scalp_tint = 0.35,
             unit = unit }
     end,
 })

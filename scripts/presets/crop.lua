@@ -23,14 +23,14 @@ return styling.preset(..., {
             -- The top comes lower in front than at the sides and behind, in no step.
             local beside = styling.smooth(25, 75, math.abs(azimuth))
             local on_top = styling.smooth(26 + 6 * beside, 40 + 26 * beside, elevation)
-            local side = v.sides + 0.25 * (v.top - v.sides) * styling.smooth(-30, 25, elevation)
+            local side = v.sides + 0.2 * (v.top - v.sides) * styling.smooth(-10, 40, elevation)
             return side + (v.top - side) * on_top
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.006,
             clearance = 0.0012, lift = 0.5, ramp = 0.02, variation = 0.3, segment = 0.25, min_speed = 0.01 }
         hair:resample{ count = 10 }
         hair:clump{ clumps = 700, strength = v.texture, tip_spread = 0.0015, offset = 0.0015, seed = v.seed }
-        styling.finish(hair, 0.00028, 0.004):push_out{ head = style, clearance = 0.0008 }
+        styling.finish(hair, 0.00026, 0.0012):push_out{ head = style, clearance = 0.0008 }
         return style, hair, { color = "#4a3020", scalp_tint = 0.8, unit = scalp:unit() }
     end,
 })

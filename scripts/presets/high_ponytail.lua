@@ -31,7 +31,7 @@ return styling.preset(..., {
         end
         hair:clump{ clumps = 1200, strength = 0.35, seed = v.seed }
         styling.finish(hair, 0.00024, 0.001):push_out{ head = style, clearance = 0.001 }
-        return style, hair, { color = "#3c2415", primary = 0.3, unit = o.scalp:unit() },
+        return style, hair, { color = "#3c2415", primary = 0.17, unit = o.scalp:unit() },
             { hairdo.ring(o.scalp, tie) }
     end,
 })

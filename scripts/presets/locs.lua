@@ -43,8 +43,8 @@ return styling.preset(..., {
         hair:frizz{ amplitude = v.matted, wavelength = 0.006, flyaways = 0.04, flyaway = 4, shape = 0.3,
             seed = v.seed }
         hair:push_out{ head = style, clearance = 0.002 }
-        styling.set_width(hair, 0.00025):taper{ tip = 0.4, start = 0.6 }
-        return style, hair, { color = "#3a2a20", clump_tone = 0.25, primary = 0.08, secondary = 0.35,
+        styling.thin_out(styling.set_width(hair, 0.00025))
+        return style, hair, { color = "#3a2a20", clump_tone = 0.2, primary = 0.05, secondary = 0.35,
             unit = scalp:unit() }
     end,
 })

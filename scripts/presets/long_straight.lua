@@ -42,6 +42,6 @@ return styling.preset(..., {
                 locks:push_out{ head = lock_style, clearance = 0.002 }
             end
         end
-        return style, hair:append(front), { color = "#7a5232", primary = 0.3, unit = o.scalp:unit() }
+        return style, hair:append(front), { color = "#7a5232", primary = 0.17, unit = o.scalp:unit() }
     end,
 })

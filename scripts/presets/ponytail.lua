@@ -95,7 +95,7 @@ function ponytail.style(head, values, options)
     values = complete(values)
     local all = {}
     for key, value in pairs(options or {}) do all[key] = value end
-    all.scalp = all.scalp or lissom.scalp(head)
+    all.scalp = all.scalp or lissom.scalp(head, { softness = styling.softness })
     local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
         length = values.length,
         droop = values.droop >= 0 and values.droop or droop_at(values.height, values.side),
@@ -157,7 +157,8 @@ function ponytail.grow(head, values, options, growth)
     local all = { count = options and options.count, length = 0.6, seed = values.seed,
         layer = 0.003 + 0.014 * (1 - values.tightness), cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
-    return style, styling.set_width(style:grow(all), 0.00022), tie
+    local hair = styling.set_width(style:grow(all), 0.00022)
+    return style, styling.soften(style, hair, "tied", values.seed), tie
 end
 
 -- Run as a script, it makes one and its pictures.
@@ -166,7 +167,7 @@ if ... ~= "presets.ponytail" then
     local values = {}
     for name in pairs(ponytail.schema) do values[name] = params[name] end
     local head = hairdo.head(params)
-    local options = { scalp = hairdo.scalp(head, params), resolution = params.resolution }
+    local options = { scalp = hairdo.scalp(head, params, styling.softness), resolution = params.resolution }
     local style, hair, tie = ponytail.grow(head, values, options, { count = params.count })
     hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) })
 end

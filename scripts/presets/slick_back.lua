@@ -48,6 +48,6 @@ return styling.preset(..., {
             seed = v.seed }
         hair:smooth{ iterations = 3 }:clump{ strength = 0.4 }
         styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
-        return style, hair, { color = "#2b1a10", primary = 0.28, unit = scalp:unit() }
+        return style, hair, { color = "#2b1a10", primary = 0.2, primary_exponent = 40, unit = scalp:unit() }
     end,
 })

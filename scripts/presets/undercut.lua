@@ -43,7 +43,7 @@ return styling.preset(..., {
         end
         local _, hair = styling.stubble(head, o, { part = 1, seed = v.seed,
             length = styling.by_angles(scalp, faded), density = styling.by_angles(scalp, shaved) })
-        hair:taper{ tip = 0.4, start = 0.6 }:set_colors{ color = { 0.06, 0.036, 0.02 } }
+        styling.thin_out(hair):set_colors{ color = { 0.06, 0.036, 0.02 } }
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.streams(style, routes)
         local top = style:grow{ count = math.floor(0.6 * o.count), seed = v.seed,

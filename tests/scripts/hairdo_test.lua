@@ -61,6 +61,41 @@ test("few strands of a preset are wider and many thinner, so that all cover as m
     expect.near(width(2, 900000), 0.0002 / 3, 1e-6)
 end)
 
+-- The number of roots of hair in a band of elevations at the nape, and the mean distance from root to tip.
+local function nape_band(hair, scalp, low, high)
+    local styling = require "styling"
+    local points, unit, first, count, sum = hair:points(), scalp:unit(), 1, 0, 0
+    for _, size in ipairs(hair:point_counts()) do
+        local root, tip = { points:get(first) }, { points:get(first + size - 1) }
+        local azimuth, elevation = styling.angles(scalp:to_metres(root[1] / unit, root[2] / unit,
+            root[3] / unit))
+        if math.abs(azimuth) > 150 and elevation >= low and elevation < high then
+            local square = 0
+            for k = 1, 3 do square = square + (tip[k] - root[k]) ^ 2 end
+            count, sum = count + 1, sum + math.sqrt(square)
+        end
+        first = first + size
+    end
+    return count, sum / math.max(count, 1)
+end
+
+test("hair of presets thins out, and is shorter, towards the hairline", function()
+    local styling = require "styling"
+    local head = lissom.shapes.head{ vertices = 12000 }
+    local scalp = lissom.scalp(head, { softness = styling.softness })
+    local preset = require "presets.buzz"
+    local _, hair = preset.grow(head, { fade = 0 }, { count = 20000, resolution = 8000, scalp = scalp })
+    -- The lowest band of four degrees with roots, and those above it.
+    local counts, lengths = {}, {}
+    for elevation = -60, 0, 4 do
+        local count, length = nape_band(hair, scalp, elevation, elevation + 4)
+        if count > 20 then counts[#counts + 1], lengths[#lengths + 1] = count, length end
+    end
+    expect.truthy(#counts > 6, "bands: " .. #counts)
+    expect.truthy(counts[1] < 0.6 * counts[5], counts[1] .. " roots at the edge, inside " .. counts[5])
+    expect.truthy(lengths[1] < 0.75 * lengths[5], lengths[1] .. " long at the edge, inside " .. lengths[5])
+end)
+
 test("another seed gives another head of hair, the same seed the same", function()
     local head = lissom.shapes.head{ vertices = 6000 }
     local preset = require "presets.spiky"

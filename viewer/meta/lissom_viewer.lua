@@ -10,15 +10,15 @@ local lissom = {}
 ---@field level? number Part of the strands to draw, the first of them; the fewer, the wider each, so that they cover as much. Default: 1.
 ---@field count? integer The same as a number of strands. Default: all.
 ---@field unit? number Length of the mesh's unit; strands are in metres. In metres. Default: that of the places of the roots on the mesh, else 1.
----@field primary? number Strength of the white reflection. Default: 0.24.
----@field primary_exponent? number Its sharpness. Default: 70.
+---@field primary? number Strength of the white reflection. Default: 0.14.
+---@field primary_exponent? number Its sharpness. Default: 26.
 ---@field primary_shift? number Its lean towards the tip; negative: to the root. In degrees. Default: 5.73.
----@field secondary? number Strength of the coloured reflection. Default: 0.5.
----@field secondary_exponent? number Its sharpness. Default: 14.
+---@field secondary? number Strength of the coloured reflection. Default: 0.42.
+---@field secondary_exponent? number Its sharpness. Default: 10.
 ---@field secondary_shift? number Its lean towards the tip; negative: to the root. In degrees. Default: -8.594.
 ---@field shift_jitter? number Random lean of reflections, by strand. In degrees. Default: 2.865.
 ---@field strand_tone? number Random difference of strands' brightness. Default: 0.12.
----@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.18.
+---@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.1.
 ---@field clump_size? number Distance of the middles of these clumps at the roots. In metres. Default: 0.005.
 ---@field root_tone? number Factor of the colour at the root. Default: 0.72.
 ---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
@@ -91,7 +91,7 @@ function lissom.render(options) end
 ---@field cutoff? number Alpha below it is not drawn. Default: 0.5.
 ---@field color? string Colour of all strands, instead of their own. Default: the strands' own, else a brown.
 ---@field strand_tone? number Random difference of strands' brightness. Default: 0.12.
----@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.18.
+---@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.1.
 ---@field root_tone? number Factor of the colour at the root. Default: 0.72.
 ---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
 

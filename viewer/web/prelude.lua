@@ -76,7 +76,8 @@ end
 
 local function look_of(hair)
     local look = {}
-    for _, key in ipairs{ "color", "unit", "primary", "secondary", "shadow", "root_tone", "tip_tone" } do
+    for _, key in ipairs{ "color", "unit", "primary", "primary_exponent", "secondary", "secondary_exponent",
+        "shadow", "root_tone", "tip_tone" } do
         look[key] = hair and hair[key]
     end
     return look

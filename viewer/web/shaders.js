@@ -85,7 +85,9 @@ void main() {
     vec3 color = gl_FrontFacing ? v_color : v_color * vec3(0.50, 0.36, 0.30);
     vec3 hair = hair_light(v_world + mat3(transpose(u_view)) * normal * u_hair_grid.w);
     float grazing = pow(1.0 - max(dot(normal, to_viewer), 0.0), 3.0);
-    vec3 loss = loss_of(u_hair_color), arriving = through_hair(loss, hair.z);
+    vec3 loss = loss_of(u_hair_color);
+    loss = mix(vec3(dot(loss, vec3(1.0 / 3.0))), loss, 0.35);
+    vec3 arriving = through_hair(loss, hair.z);
     vec3 sum = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * arriving
              + kKeyLight * through_hair(loss, hair.x) * soft_cosine(normal, kKeyDirection, 0.15)
              + kFillLight * soft_cosine(normal, kFillDirection, 0.3) * arriving

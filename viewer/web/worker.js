@@ -209,7 +209,9 @@ function strandsOf(strands, picture, head) {
     const light = hairLight(places, offsets, widths, head?.positions);
     if (light) light.color = roots;
     return { object: id, points, colors, starts, light, box: boxOf(places), count: offsets.length - 1,
-        look: { shadow: Math.min(look.shadow ?? 1, 1), lobes: [look.primary ?? 0.24, look.secondary ?? 0.5, 70, 14] } };
+        look: { shadow: Math.min(look.shadow ?? 1, 1),
+            lobes: [look.primary ?? 0.14, look.secondary ?? 0.42, look.primary_exponent ?? 26,
+                look.secondary_exponent ?? 10] } };
 }
 
 function drawnPicture(picture) {

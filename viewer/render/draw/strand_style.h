@@ -34,15 +34,17 @@ struct StrandStyle {
     /// Metres in one unit of the picture's world; strands are in metres. Positive.
     double unit = 1.0;
 
-    /// White, from the surface of the strand, and coloured, from inside it.
-    HairLobe primary{0.24, 70.0, 0.10};
-    HairLobe secondary{0.50, 14.0, -0.15};
+    /// White, from the surface of the strand, and coloured, from inside it. As wide as on real
+    /// hair, with a roughness of 6 and 9 degrees (Marschner et al. 2003: 5 to 10, and 1.5 to 2
+    /// times as much): narrower ones break up into specks where strands lie across.
+    HairLobe primary{0.14, 26.0, 0.10};
+    HairLobe secondary{0.42, 10.0, -0.15};
     /// Radians by which both lean more or less, from strand to strand.
     double shift_jitter = 0.05;
 
     /// Random variation of brightness of strands, and of clumps of them; 0 to 1.
     double strand_tone = 0.12;
-    double clump_tone = 0.18;
+    double clump_tone = 0.1;
     /// Size of a clump on the scalp in metres; positive.
     double clump_size = 0.005;
     /// Factors of the colour at the root and at the tip; at least 0.

@@ -18,7 +18,7 @@ void place_shade(GpuHairShade& shade, const ViewGrid& grid) {
 
 void color_shade(GpuHairShade& shade, const Eigen::Array3f& scalp_color) {
     shade.scalp_color = scalp_color.cast<double>();
-    shade.loss = relative_loss(scalp_color).cast<double>();
+    shade.loss = loss_on_skin(scalp_color).cast<double>();
 }
 
 GpuHairShade upload_shade(const StrandShadow* shadow) {

@@ -33,7 +33,7 @@ struct GpuHairShade {
     Vec3 offset = Vec3::Zero();
     /// Distance between grid points in view units; 0 if there are no strands.
     double step = 0.0;
-    /// Linear colour of the scalp, and the relative_loss of light in hair of that colour.
+    /// Linear colour of the scalp, and the loss_on_skin of light in hair of that colour.
     Vec3 scalp_color = Vec3::Zero(), loss = Vec3::Ones();
 };
 

@@ -23,6 +23,8 @@ constexpr float kScattered = 0.06f;
 constexpr float kForward = 0.80f, kAbsorbed = 0.0462f;
 // Loss of light at a strand of the usual brown, in the mean: -ln a_f of a colour of 0.16.
 constexpr float kUsualLoss = 0.378f;
+// Colour that is left of that of light through hair on skin; with all of it shadows are orange.
+constexpr float kSkinTint = 0.35f;
 // Hairs behind each other that light passes in what is drawn as one strand.
 constexpr float kHairs = 3.0f;
 // The light through a strand: leaning half as much as the reflection does, and to the other side;
@@ -83,6 +85,11 @@ Array3f forward_scattering(const Array3f& color) {
 
 Array3f relative_loss(const Array3f& color) {
     return -forward_scattering(color).log() / kUsualLoss;
+}
+
+Array3f loss_on_skin(const Array3f& color) {
+    const Array3f loss = relative_loss(color);
+    return loss.mean() + kSkinTint * (loss - loss.mean());
 }
 
 Array3f light_through_hair(float light, const Array3f& color) {

@@ -57,6 +57,10 @@ Eigen::Array3f forward_scattering(const Eigen::Array3f& color);
 /// hair is what brown hair leaves, to this power.
 Eigen::Array3f relative_loss(const Eigen::Array3f& color);
 
+/// Returns the same for light that falls through hair on skin, of the same mean and nearer to grey:
+/// most of it comes through the gaps between strands, which colour nothing.
+Eigen::Array3f loss_on_skin(const Eigen::Array3f& color);
+
 /// Returns the transmittance of hair of this colour in front of a strand, a_f to the number of
 /// strands there; `light` is that of hair of the usual brown.
 Eigen::Array3f light_through_hair(float light, const Eigen::Array3f& color);

@@ -95,6 +95,29 @@ TEST_CASE("strand shading: a higher exponent is sharper, a jitter is a shift") {
           Approx(strand_reflection({1, 80, 0.3}, 0.0f, strand, to_light, beside)));
 }
 
+TEST_CASE("strand shading: reflections are as wide as on real hair") {
+    // A cosine to the power n of both angles together is a Gaussian of variance 1 / n; roughness is
+    // told of their mean (Marschner et al. 2003, table 1).
+    const auto degrees = [](const HairLobe& lobe) {
+        return 0.5 / std::sqrt(lobe.exponent) * 180.0 / kPi;
+    };
+    const StrandStyle style;
+    CHECK(degrees(style.primary) >= 5.0);
+    CHECK(degrees(style.primary) <= 10.0);
+    CHECK(degrees(style.secondary) >= 1.5 * degrees(style.primary));
+    CHECK(degrees(style.secondary) <= 2.0 * degrees(style.primary));
+}
+
+TEST_CASE("strand shading: light through hair tints skin less than strands, and is as much") {
+    for (const Array3f& color : {Array3f(0.26f, 0.15f, 0.075f), Array3f(0.04f, 0.03f, 0.02f),
+                                 Array3f(0.6f, 0.45f, 0.2f)}) {
+        const Array3f strands = relative_loss(color), skin = loss_on_skin(color);
+        CHECK(skin.mean() == Approx(strands.mean()));
+        CHECK(skin.maxCoeff() - skin.minCoeff() < 0.5f * (strands.maxCoeff() - strands.minCoeff()));
+        CHECK(skin.minCoeff() > 0.0f);
+    }
+}
+
 TEST_CASE("strand shading: the primary reflection is white, the secondary has the hair's colour") {
     StrandStyle style;
     style.secondary.strength = 0.0;
