@@ -8,7 +8,6 @@ local tails = require "tails"
 
 return styling.preset(..., {
     name = "braid",
-    edge = "tied",
     schema = {
         height = { type = "number", default = -6, min = -12, max = 30, unit = "degrees",
             help = "elevation of the tie" },
@@ -25,7 +24,7 @@ return styling.preset(..., {
         local style, hair, tie = ponytail.grow(head,
             { height = v.height, tightness = v.tightness, length = 0.1, lift = 0.016, seed = v.seed },
             { scalp = o.scalp, resolution = o.resolution }, { count = o.count })
-        local spine = tails.way_down(o.scalp, tie, v.length + v.tuft + 0.05, 1.6 * v.radius)
+        local spine = tails.way_down(o.scalp, tie, v.length + v.tuft + 0.05, 1.9 * v.radius)
         hair:smooth{ iterations = 3 }
         hair:braid{ spine = spine, scalp = o.scalp, across = o.scalp:left(), radius = v.radius,
             reach = 2.2 * tie.radius, length = v.length, tuft = v.tuft, seed = v.seed }

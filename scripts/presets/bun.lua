@@ -6,7 +6,6 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "bun",
-    edge = "tied",
     schema = {
         height = { type = "number", default = 22, min = -12, max = 50, unit = "degrees",
             help = "elevation of the tie" },

@@ -18,7 +18,7 @@ local function spine_of(scalp, across, tail)
     for t = first, last, step do
         local azimuth, elevation = place(across, t)
         points[#points + 1] = scalp:at{ azimuth = azimuth, elevation = elevation,
-            lift = 0.0005 + 0.0022 * styling.smooth(34, 60, t) }
+            lift = 0.0005 + 0.0045 * styling.smooth(34, 90, t) }
     end
     local q = scalp:to_metres(points[#points])
     for j = 1, 6 do
@@ -31,12 +31,12 @@ end
 return styling.preset(..., {
     name = "cornrows",
     schema = {
-        rows = { type = "integer", default = 13, min = 5, max = 17, help = "number of braids" },
+        rows = { type = "integer", default = 11, min = 5, max = 17, help = "number of braids" },
         tails = { type = "number", default = 0.108, min = 0.02, max = 0.25, unit = "metres",
             help = "length of the braids below the nape" },
-        gap = { type = "number", default = 0.14, min = 0, max = 0.5,
+        gap = { type = "number", default = 0.3, min = 0, max = 0.5,
             help = "part of the scalp between them" },
-        thickness = { type = "number", default = 1, min = 0.6, max = 1.3,
+        thickness = { type = "number", default = 0.9, min = 0.6, max = 1.3,
             help = "of a braid as a part of the usual" },
     },
     make = function(head, v, o)
@@ -60,15 +60,15 @@ return styling.preset(..., {
                 one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
                     across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
                     high = 0.0022 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
-                    max_run = 0.06, tail = 0.35, begin_size = 0.45, end_size = 0.55, step = 0.0016,
+                    max_run = 0.06, tail = 0.35, begin_size = 0.3, end_size = 0.55, step = 0.0016,
                     seed = v.seed, drop_others = true }
             end
             braids = braids and braids:append(one) or one
         end
         braids:push_out{ head = style, clearance = 0.0012, ramp = 0.004 }
-        braids:frizz{ amplitude = 0.00022, wavelength = 0.008, flyaway = 2 }
+        braids:frizz{ amplitude = 0.00012, wavelength = 0.008, flyaways = 0 }
         styling.thin_out(styling.set_width(braids, 0.00022))
-        return style, braids, { color = "#1f1511", primary = 0.08, scalp_tint = 0.35,
+        return style, braids, { color = "#2a1c16", primary = 0.12, scalp_tint = 0.12,
             unit = unit }
     end,
 })

@@ -38,7 +38,7 @@ return styling.preset(..., {
             return styling.smooth(line - 5, line + 5, elevation)
         end
         local low = styling.long(head, o, routes)
-        local hair = low:grow{ count = math.floor(0.9 * o.count), seed = v.seed, length = 0.225 + v.length,
+        local hair = low:grow{ count = math.floor(0.8 * o.count), seed = v.seed, length = 0.225 + v.length,
             layer = 0.01, clearance = 0.003,
             density = styling.by_angles(scalp, function(...) return 1 - upper(...) end) }
         hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
@@ -50,8 +50,8 @@ return styling.preset(..., {
         hair:clump{ clumps = 600, strength = 0.5 }:push_out{ head = low, clearance = 0.003 }
         local style, up, tie = ponytail.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },
-            { scalp = scalp, resolution = o.resolution },
-            { count = math.floor(0.6 * o.count), density = styling.by_angles(scalp, upper) })
+            { scalp = scalp, resolution = o.resolution, hard = true },
+            { count = math.floor(0.7 * o.count), density = styling.by_angles(scalp, upper) })
         local at = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
         up:smooth{ iterations = 3 }
         up:bun{ center = scalp:at(at), direction = scalp:normal_at(at), scalp = scalp, radius = v.bun,

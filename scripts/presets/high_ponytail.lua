@@ -7,7 +7,6 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "high_ponytail",
-    edge = "tied",
     schema = {
         height = { type = "number", default = 50, min = 32, max = 50, unit = "degrees",
             help = "elevation of the tie" },

@@ -147,18 +147,19 @@ local function loose_ends(scalp, tie)
 end
 
 -- The style, its hair and its tail. `options` are those of lissom.hairstyle, and the `count` of strands as in
--- other presets; `growth` are options of style:grow.
+-- other presets; with `hard` the edge of the hair stays as it is. `growth` are options of style:grow.
 function ponytail.grow(head, values, options, growth)
     values = complete(values)
     local of_style = {}
     for key, value in pairs(options or {}) do of_style[key] = value end
-    of_style.count = nil
+    of_style.count, of_style.hard = nil, nil
     local style, tie = ponytail.style(head, values, of_style)
     local all = { count = options and options.count, length = 0.6, seed = values.seed,
         layer = 0.003 + 0.014 * (1 - values.tightness), cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
     local hair = styling.set_width(style:grow(all), 0.00022)
-    return style, styling.soften(style, hair, "tied", values.seed), tie
+    if not (options and options.hard) then styling.soften(style, hair, "tied", values.seed) end
+    return style, hair, tie
 end
 
 -- Run as a script, it makes one and its pictures.

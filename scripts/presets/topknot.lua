@@ -7,7 +7,6 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "topknot",
-    edge = "tied",
     schema = {
         height = { type = "number", default = 50, min = 38, max = 50, unit = "degrees",
             help = "elevation of the tie" },
