@@ -122,6 +122,12 @@ class Plans(Folder):
         self.assertEqual(jobs[0]["arguments"], {"number": "0", "count": "1", "text": "x"})
         self.assertFalse(os.path.exists(self.path("out")))
 
+    def test_a_star_takes_all_choices_of_a_parameter(self):
+        jobs = self.plan("make.lua", "--sweep", "mode=*", "--out", "out/{mode}.txt")
+        self.assertEqual([job["arguments"]["mode"] for job in jobs][:2], ["good", "fails"])
+        jobs = self.plan("make.lua", "--sweep", "text=*", "--out", "out/{n}.txt")
+        self.assertEqual([job["arguments"]["text"] for job in jobs], ["*"])
+
     def test_files_and_rows_of_a_table_are_axes(self):
         for name in ("in/a.obj", "in/deep/b c.obj", "in/ü.obj"):
             self.write(name, TRIANGLE)

@@ -37,7 +37,8 @@ void declare(CLI::App& app, Wanted& wanted) {
               "A job for each file that a pattern names, or for each row of a table (.csv); "
               "NAME=PATTERN names the parameter; repeatable: all combinations");
     add_words("--sweep", wanted.words.sweep,
-              "A job for each value: NAME=a,b,c, NAME=0:90:15 (by a step), NAME=0:90/7 (a count)");
+              "A job for each value: NAME=a,b,c, NAME=0:90:15 (by a step), NAME=0:90/7 (a count), "
+              "'NAME=*' (all choices of the parameter)");
     add_words("--set", wanted.words.set, "NAME=VALUE for all jobs");
     app.add_option(
         "--out", wanted.words.out,

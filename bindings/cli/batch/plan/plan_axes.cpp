@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 #include "bindings/cli/batch/plan/table.h"
 #include "kernel/core/error.h"
@@ -85,6 +86,20 @@ Axis over_axis(const ParameterSet& parameters, const ScriptParameter& out,
     return axis;
 }
 
+constexpr std::string_view kAllValues = "*";
+
+// A parameter with choices takes each of them for "*".
+void list_choices(const ScriptParameter& parameter, Axis& axis) {
+    const std::vector<std::string>& choices = parameter.choices;
+    if (axis.rows.size() != 1 || axis.rows[0][0] != kAllValues) return;
+    if (parameter.type != ParameterType::choice ||
+        std::find(choices.begin(), choices.end(), kAllValues) != choices.end()) {
+        return;
+    }
+    axis.rows.clear();
+    for (const std::string& choice : choices) axis.rows.push_back({choice});
+}
+
 // Two axes may both be of files, but not give one name two values.
 void require_given_once(const Axes& axes, const ScriptParameter& out) {
     std::set<std::string> given;
@@ -143,7 +158,9 @@ Axes read_axes(const ParameterSet& parameters, const ScriptParameter& out,
     }
     for (const std::string& word : words.sweep) {
         Axis axis = sweep_axis(word);
-        axis.names[0] = require(parameters, axis.names[0], "--sweep " + word).name;
+        const ScriptParameter& p = require(parameters, axis.names[0], "--sweep " + word);
+        axis.names[0] = p.name;
+        list_choices(p, axis);
         axes.list.push_back(std::move(axis));
     }
     for (const std::string& word : words.set) {

@@ -30,7 +30,8 @@ struct Axes {
     std::map<std::string, std::string> fixed;
 };
 
-/// Reads the axes of --over, --sweep and --set. `out` is the parameter of the output, which none of
+/// Reads the axes of --over, --sweep and --set; "*" stands for all choices of a parameter that has
+/// some. `out` is the parameter of the output, which none of
 /// them gives. Errors: invalid_argument, file_not_found.
 Axes read_axes(const lua::ParameterSet& parameters, const lua::ScriptParameter& out,
                const BatchWords& words);
