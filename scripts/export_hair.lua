@@ -6,16 +6,26 @@
 -- part of the picture's height (screen_size) up to which it shows as much as the finest does in full.
 --
 --     lissom run scripts/export_hair.lua --head head.obj --preset bob --out out/bob
---     lissom batch scripts/export_hair.lua --over 'heads/*.obj' --out 'out/{name}' -- --preset bob
+--     lissom batch scripts/export_hair.lua --over 'heads/*.obj' --sweep 'preset=*' \
+--         --out 'out/{name}/{preset}'
 local hairdo = require "hairdo"
 local lissom = require "lissom"
 local styling = require "styling"
+
+local presets = {
+    "afro", "bob", "braid", "bun", "buzz", "centre_part", "cornrows", "crop", "crown_braid", "half_up",
+    "high_ponytail", "locs", "long_straight", "messy", "mohawk", "pigtails", "pixie", "ponytail", "ringlets",
+    "side_part", "slick_back", "spiky", "topknot", "two_braids", "undercut", "waves",
+}
 
 local params = hairdo.params{
     name = "hair",
     count = 20000,
     more = {
-        preset = { type = "string", default = "bob", help = "a hairstyle of scripts/presets" },
+        preset = { type = "choice", default = "bob", choices = presets,
+            help = "a hairstyle of scripts/presets" },
+        size = { type = "integer", default = 1200, min = 64, max = 4096, unit = "pixels",
+            help = "width and height of the sheet of pictures" },
         color = { type = "string", default = "", help = "of the hair, \"#rrggbb\"; else the preset's" },
         guides = { type = "integer", default = 300, min = 3, help = "strands that an engine simulates" },
         strand_levels = { type = "integer", default = 3, min = 1, max = 8,
@@ -26,7 +36,7 @@ local params = hairdo.params{
             help = "triangles of the shell, the last level" },
         points = { type = "integer", default = 16, min = 2, max = 256, help = "of guided strands" },
         cards = { type = "integer", default = 200, min = 1, max = 100000, help = "of the finest cards" },
-        slots = { type = "integer", default = 32, min = 1, max = 256, help = "pictures in an atlas" },
+        slots = { type = "integer", default = 64, min = 1, max = 256, help = "pictures in an atlas" },
         atlas = { type = "integer", default = 2048, min = 64, max = 8192, unit = "pixels",
             help = "sides of the atlas" },
     },
@@ -76,7 +86,7 @@ end
 
 local function card_levels()
     local levels = {}
-    for i, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
+    for i, level in ipairs{ { 1, 16 }, { 0.5, 10 }, { 0.25, 8 } } do
         levels[i] = { count = math.max(1, math.floor(params.cards * level[1] + 0.5)), sections = level[2] }
     end
     return levels
@@ -103,29 +113,39 @@ local function has_skin(mesh)
     return false
 end
 
+-- Strands of the sheet have the tones that bake_cards gives to cards: darker roots and lighter tips.
+local function with_tones(strands, color)
+    local profile, base = {}, styling.linear(color)
+    for i, tone in ipairs{ 0.72, 1, 1.05, 1.13, 1.18 } do
+        profile[i] = { tone * base[1], tone * base[2], tone * base[3] }
+    end
+    return strands:copy():set_colors{ profile = profile }
+end
+
 -- Writers of the files of a level, by kind. Each returns what the manifest says of it beside its measures,
 -- and what the sheet shows of it.
 local save = {}
 
-function save.strands(level, name, _, _, skinned)
+function save.strands(level, name, _, color, skinned)
     level.strands:save(path(name .. ".usda"), { head = skinned })
     local count = #level.strands
     return { file = name .. ".usda", strands = count, points = level.strands:stats().points,
         widened = level.widen, skeleton = skinned ~= nil },
-        { strands = level.strands, caption = count .. " strands" }
+        { strands = with_tones(level.strands, color), caption = count .. " strands" }
 end
 
 function save.cards(level, name, number, color)
     local atlas = {}
     for _, kind in ipairs{ "color", "flow", "data" } do atlas[kind] = name .. "_" .. kind .. ".png" end
     local size = math.max(64, math.floor(params.atlas / 2 ^ (number - 1)))
-    local preview = lissom.bake_cards{ cards = level.cards, color = color, size = size,
+    local _, ribbons, cap = lissom.bake_cards{ cards = level.cards, color = color, size = size,
         mesh = path(name .. ".glb"), file = path(atlas.color), flow = path(atlas.flow),
         data = path(atlas.data), strand_tone = 0.12 }
     local stats = level.cards:stats()
     return { file = name .. ".glb", cards = stats.cards, triangles = stats.triangles, slots = stats.slots,
         atlas = atlas, atlas_size = size, covered = stats.covered, off_card = stats.rms },
-        { mesh = preview, caption = stats.cards .. " cards, " .. stats.triangles .. " triangles" }
+        { mesh = cap, strands = ribbons,
+            caption = stats.cards .. " cards, " .. stats.triangles .. " triangles" }
 end
 
 function save.shell(level, name)
@@ -157,12 +177,7 @@ local function save_levels(levels, color, skinned)
 end
 
 local head = hairdo.head(params)
-local found, preset = pcall(require, "presets." .. params.preset)
-if not found then
-    local is_unknown = tostring(preset):find("presets." .. params.preset .. "' not found", 1, true)
-    local message = "there is no preset '" .. params.preset .. "'; scripts/presets has the names"
-    error(is_unknown and message or preset, 0)
-end
+local preset = require("presets." .. params.preset)
 local style, hair, look = preset.grow(head, {},
     { scalp = hairdo.scalp(head, params), resolution = params.resolution, count = params.count })
 local color = params.color ~= "" and params.color or look.color or "#8a6a4a"
@@ -223,8 +238,9 @@ local function save_sheet()
             captions[i] = level.caption
         end
         local file = "levels_" .. side .. ".png"
-        lissom.render{ meshes = meshes, strands = strands, columns = 3, captions = captions, view = side,
-            size = { params.size, params.size }, hair = { unit = unit }, file = path(file) }
+        lissom.render{ meshes = meshes, strands = strands, columns = 3, captions = captions,
+            camera = hairdo.camera(style, hair, side), size = { params.size, params.size },
+            hair = { unit = unit, root_tone = 1, tip_tone = 1, clump_tone = 0.08 }, file = path(file) }
         files[#files + 1] = file
     end
     return files

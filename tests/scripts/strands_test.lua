@@ -264,9 +264,14 @@ do
         local cards = hair:cards{ count = 60, style = style, slots = 12 }
         local stats = cards:stats()
         local glb = test.file("cards.glb")
-        local preview = lissom.bake_cards{ cards = cards, file = test.file("color.png"), mesh = glb,
-            flow = test.file("flow.png"), data = test.file("data.png"), size = 256 }
+        local preview, ribbons, cap = lissom.bake_cards{ cards = cards, file = test.file("color.png"),
+            mesh = glb, flow = test.file("flow.png"), data = test.file("data.png"), size = 256 }
         expect.truthy(preview:face_count() > 1000)
+        expect.truthy(cap:face_count() > 50 and cap:face_count() < preview:face_count())
+        -- In metres where the hair is, in its colours.
+        local found, all = ribbons:bounds(), hair:bounds()
+        expect.truthy(#ribbons > 500)
+        for k = 1, 3 do expect.truthy(math.abs(found.max[k] - all.max[k]) < 0.02) end
         local again = lissom.load(glb)
         expect.equal(again:face_count(), stats.triangles)
         again:save(test.file("again.glb"))

@@ -4,6 +4,7 @@
 
 #include "bindings/lua/core/file_path.h"
 #include "bindings/lua/hair/engine/cards_object.h"
+#include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/io/gltf/textured.h"
 #include "kernel/io/mesh_file.h"
@@ -53,6 +54,8 @@ void save_card_mesh(const Call& call, const CardsObject& cards, const CardAtlas&
 
 int bake_cards(Call& call) {
     const auto preview = call.create<MeshObject>();
+    const auto ribbons = call.create<StrandsObject>();
+    const auto cap = call.create<MeshObject>();
     const bool done = call.attempt([&] {
         for (const char* option : {"file", "flow", "data"}) {
             if (call.has(option)) require_picture_path(file_path(call.string(option)));
@@ -69,10 +72,16 @@ int bake_cards(Call& call) {
         drawn.cutoff = options.cutoff;
         preview.set(std::make_shared<MeshObject>(
             card_preview(cards->cards, cards->mesh, atlas, drawn, call.context())));
+        ribbons.set(std::make_shared<StrandsObject>(
+            card_ribbons(cards->cards, atlas, drawn, call.context())));
+        cap.set(std::make_shared<MeshObject>(
+            cap_preview(cards->cards, cards->mesh, atlas, drawn, call.context())));
     });
     if (!done) return call.fail();
     call.charge(preview);
-    return 1;
+    call.charge(ribbons);
+    call.charge(cap);
+    return 3;
 }
 
 }  // namespace
@@ -101,7 +110,7 @@ std::vector<Function> bake_functions() {
                      "(green), covered part of the texel (blue).")
                   .optional("none"),
               string("mesh", "The cards as .glb with colours and flow inside.").optional("none"),
-              integer("across", "Faces of the preview across each card.")
+              integer("across", "Faces of the preview, and ribbons, across each card.")
                   .defaults(CardPreviewOptions{}.across)
                   .between(2, 256),
               integer("size", "Texels along each side.").defaults(d.size).between(64, 8192),
@@ -118,7 +127,11 @@ std::vector<Function> bake_functions() {
               tone("tip_tone", "Factor of the colour at the tip.", d.style.tip_tone, 10.0)},
          .results = {{"lissom.Mesh", "preview",
                       "The cards without what is clear, as faces of the colours of their parts, "
-                      "for renderers without textures such as lissom.render."}},
+                      "for renderers without textures such as lissom.render."},
+                     {"lissom.Strands", "ribbons",
+                      "The cards without the cap and without what is clear, as strands along them "
+                      "in the colours of their parts: lissom.render lights them as hair."},
+                     {"lissom.Mesh", "cap", "The cap alone, as in `preview`."}},
          .errors = {ErrorCode::invalid_argument, ErrorCode::unknown_format,
                     ErrorCode::file_write_failed, ErrorCode::file_is_directory,
                     ErrorCode::memory_limit, ErrorCode::cancelled},

@@ -86,7 +86,7 @@ function lissom.render(options) end
 ---@field flow? string As .png, like a normal map: direction towards the tip across (red) and from tip to root (green), height over the card of -5 to 5 mm (blue). Default: none.
 ---@field data? string As .png: 0 at the root to 1 at the tip (red), a number of the strand (green), covered part of the texel (blue). Default: none.
 ---@field mesh? string The cards as .glb with colours and flow inside. Default: none.
----@field across? integer Faces of the preview across each card. Default: 24.
+---@field across? integer Faces of the preview, and ribbons, across each card. Default: 24.
 ---@field size? integer Texels along each side. Default: 2048.
 ---@field cutoff? number Alpha below it is not drawn. Default: 0.5.
 ---@field color? string Colour of all strands, instead of their own. Default: the strands' own, else a brown.
@@ -98,6 +98,8 @@ function lissom.render(options) end
 ---Bakes the pictures of hair cards, without light: colour with alpha, flow and data, and saves the cards with them. Needs no display.
 ---@param options lissom.Bake_cardsOptions
 ---@return lissom.Mesh preview # The cards without what is clear, as faces of the colours of their parts, for renderers without textures such as lissom.render.
+---@return lissom.Strands ribbons # The cards without the cap and without what is clear, as strands along them in the colours of their parts: lissom.render lights them as hair.
+---@return lissom.Mesh cap # The cap alone, as in `preview`.
 function lissom.bake_cards(options) end
 
 return lissom

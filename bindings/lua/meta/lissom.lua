@@ -3305,8 +3305,9 @@ function Strands:guide_set(options) end
 ---@class lissom.Strands.CardsOptions
 ---@field count? integer Number of cards. Default: 200.
 ---@field triangles? integer Triangles of all cards, instead of `sections`. Default: as sections say.
----@field sections? integer Points along each card. Default: 12.
----@field slots? integer Pictures in the atlas, which cards that are alike share. Default: 32.
+---@field sections? integer Points along each card. Default: 16.
+---@field crossed? boolean Clusters about as thick as wide, such as ringlets, have two cards that cross, and there are fewer clusters. Default: true.
+---@field slots? integer Pictures in the atlas, which cards that are alike share. Default: 64.
 ---@field coverage? number Part of the points of its strands that a card is wide enough for. Default: 0.97.
 ---@field bend? number Normals are those of the card at 0, and those of the head below it at 1. Default: 0.7.
 ---@field clearance? number Least distance of cards from the head of `style`. In metres. Default: 0.002.
@@ -3404,7 +3405,7 @@ function Strands:silhouette_error(options) end
 ---@class lissom.Strands.LevelsOptions.Cards
 ---@field count? integer Number of cards. Default: 200.
 ---@field triangles? integer Triangles of all cards, instead of `sections`. Default: as sections say.
----@field sections? integer Points along each card. Default: 12.
+---@field sections? integer Points along each card. Default: 16.
 
 ---@class lissom.Strands.LevelsOptions.Shell
 ---@field triangles? integer Triangles wanted. Default: 2000.
@@ -3415,7 +3416,7 @@ function Strands:silhouette_error(options) end
 ---@field cards? lissom.Strands.LevelsOptions.Cards[] Up to eight levels of cards, finest first. Default: none.
 ---@field shell? lissom.Strands.LevelsOptions.Shell The last level, one surface; {} for the defaults. Default: none.
 ---@field of? "all"|"groups" Levels of all hair, or of each group, which then has its part of each count; groups that cover no pixel have none. Default: "all".
----@field slots? integer Pictures in the atlas of each level of cards. Default: 32.
+---@field slots? integer Pictures in the atlas of each level of cards. Default: 64.
 ---@field style? lissom.Hairstyle A style on the head of the strands: cards and shell stay out of it, and are in the unit of the head. Default: none: cards may go through the head, and the shell is closed.
 ---@field cap? boolean Adds the skin below the hair to cards, in its colour. Default: true with `style`.
 ---@field width? number Diameter that stands for full hair in silhouettes and on cards: a few thousand strands of a natural one leave holes. In metres. Default: their own.

@@ -20,9 +20,12 @@ struct CardOptions {
     /// for each card.
     Index triangles = 0;
     /// Points along each card, 2 to 64.
-    Index sections = 12;
+    Index sections = 16;
+    /// Clusters that are about as thick as wide, such as ringlets and tails, have two cards that
+    /// cross, and there are fewer clusters.
+    bool crossed = true;
     /// Pictures that cards share, 1 to 256; at most as many as there are cards.
-    Index slots = 32;
+    Index slots = 64;
     /// Part of the points of a card's strands that lie on it; above 0, at most 1.
     double coverage = 0.97;
     /// Normals are those of the card at 0, and those of the head's surface below it at 1.
@@ -52,6 +55,8 @@ struct Card {
     /// The strands that it stands for, and the one nearest to their mean.
     std::vector<Index> strands;
     Index medoid = kNoIndex;
+    /// The card of the same strands that it crosses; kNoIndex for none.
+    Index crosses = kNoIndex;
     /// The picture that it shows.
     Index slot = 0;
 
@@ -100,12 +105,13 @@ struct CardPoint {
 CardPoint place_on_card(const Card& card, const Vec3& point);
 
 /// Makes cards. Strands are clustered by cluster_strands: each guide that strands follow has cards
-/// of its own if there are no more guides than cards, and strands of a guide stay together if there
-/// are up to twice as many; groups and sides of partings have their own too. A card
-/// runs along the smoothed mean of its strands, wide enough for `coverage` of their points at each
-/// section; its plane is that of most spread near the surface of the head. Cards whose strands lie
-/// alike on them share a slot. Errors: invalid_argument for options out of range, or if no strand
-/// has a length; not_finite naming strands; memory_limit; cancelled.
+/// of its own if there are no more guides than clusters, and strands of a guide stay together if
+/// there are up to twice as many; groups and sides of partings have their own too. A card runs
+/// along the smoothed mean of its strands, a little out of their middle to where they end for the
+/// eye, wide enough for `coverage` of their points at each section; its plane is that of most
+/// spread near the surface of the head, and of the second of two that cross perpendicular to that.
+/// Cards whose strands lie alike on them share a slot. Errors: invalid_argument for options out of
+/// range, or if no strand has a length; not_finite naming strands; memory_limit; cancelled.
 HairCards make_cards(const Strands& strands, const CardOptions& options = {},
                      const Context& context = {});
 

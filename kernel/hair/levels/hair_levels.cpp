@@ -226,9 +226,9 @@ HairLevelOptions usual_hair_levels() {
     options.strands = {{.screen_size = 1.0, .points = 24},
                        {.screen_size = 0.5, .points = 16},
                        {.screen_size = 0.25, .points = 12}};
-    options.cards = {CardOptions{.count = 200, .sections = 12},
-                     CardOptions{.count = 100, .sections = 8},
-                     CardOptions{.count = 50, .sections = 6}};
+    options.cards = {CardOptions{.count = 200, .sections = 16},
+                     CardOptions{.count = 100, .sections = 10},
+                     CardOptions{.count = 50, .sections = 8}};
     options.shell = ShellOptions{};
     return options;
 }

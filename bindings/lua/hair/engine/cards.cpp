@@ -19,6 +19,7 @@ CardOptions read_cards(const Call& call) {
     options.count = call.integer("count");
     if (call.has("triangles")) options.triangles = call.integer("triangles");
     options.sections = call.integer("sections");
+    options.crossed = call.boolean("crossed");
     options.slots = call.integer("slots");
     options.coverage = call.number("coverage");
     options.bend = call.number("bend");
@@ -122,6 +123,10 @@ Function cards_method() {
                  .at_least(2)
                  .optional("as sections say"),
              integer("sections", "Points along each card.").defaults(d.sections).between(2, 64),
+             boolean("crossed",
+                     "Clusters about as thick as wide, such as ringlets, have two cards that "
+                     "cross, and there are fewer clusters.")
+                 .defaults(d.crossed),
              integer("slots", "Pictures in the atlas, which cards that are alike share.")
                  .defaults(d.slots)
                  .between(1, 256),

@@ -152,6 +152,51 @@ TEST_CASE("hair cards: a cap of few triangles lies over the skin that hair grows
     CHECK(lowest < 0.025);
 }
 
+// Straight strands of 20 cm that hang as tufts, round or flat.
+Strands hanging_tufts(Index tufts, Index of_each, double depth) {
+    std::vector<std::vector<Vec3>> lists;
+    for (Index s = 0; s < tufts * of_each; ++s) {
+        const double turn = 2.4 * s, r = 0.01 * std::sqrt(std::fmod(0.618034 * s, 1.0));
+        const Vec3 root(0.1 * (s % tufts) + r * std::cos(turn), 0.0, depth * r * std::sin(turn));
+        std::vector<Vec3> points;
+        for (int k = 0; k < 9; ++k) points.push_back(root - Vec3(0.0, 0.025 * k, 0.0));
+        lists.push_back(points);
+    }
+    return strands_of(lists);
+}
+
+TEST_CASE("hair cards: round tufts have two cards that cross, within the count") {
+    CardOptions options;
+    options.count = 8;
+    const Strands round = hanging_tufts(4, 100, 1.0);
+    const HairCards cards = make_cards(round, options);
+    CHECK(cards.cards.size() <= 8);
+    int crossings = 0;
+    for (const Card& card : cards.cards) {
+        if (card.crosses == kNoIndex) continue;
+        const Card& first = cards.cards[at(card.crosses)];
+        CHECK(first.crosses == kNoIndex);
+        CHECK(first.strands == card.strands);
+        for (std::size_t k = 0; k < card.sections.size(); ++k) {
+            CHECK(std::abs(card.sections[k].across.dot(first.sections[k].across)) < 1e-6);
+        }
+        ++crossings;
+    }
+    CHECK(crossings >= 2);
+    options.crossed = false;
+    CHECK(cards.rms < make_cards(round, options).rms);
+    for (const Card& card : make_cards(round, options).cards) CHECK(card.crosses == kNoIndex);
+}
+
+TEST_CASE("hair cards: flat tufts have one card each") {
+    CardOptions options;
+    options.count = 4;
+    options.distance = [](const Vec3& p) { return p.z() + 0.1; };
+    for (const Card& card : make_cards(hanging_tufts(4, 100, 0.1), options).cards) {
+        CHECK(card.crosses == kNoIndex);
+    }
+}
+
 TEST_CASE("hair cards: a place on a card is that which it was made of") {
     const HairCards cards = make_cards(ball_hair(200), on_ball(8));
     const Card& card = cards.cards[3];
@@ -159,7 +204,7 @@ TEST_CASE("hair cards: a place on a card is that which it was made of") {
     const Vec3 p = section.center + 0.5 * section.half_width * section.across;
     const CardPoint place = place_on_card(card, p);
     CHECK(place.u == doctest::Approx(0.5).epsilon(0.15));
-    CHECK(place.v == doctest::Approx(5.0 / 11.0).epsilon(0.05));
+    CHECK(place.v == doctest::Approx(5.0 / (count_of(card.sections) - 1.0)).epsilon(0.05));
     CHECK(std::abs(place.out) < 1e-3);
 }
 
