@@ -218,7 +218,8 @@ end
 -- ---- The sheet: each level from the front and from behind.
 
 local function append_colored(mesh, preview)
-    local skin = { 0.79, 0.58, 0.48 }
+    local skin = {}
+    for part in hairdo.skin:gmatch("%x%x") do skin[#skin + 1] = tonumber(part, 16) / 255 end
     local colors = {}
     for _ = 1, mesh:face_count() do
         for k = 1, 3 do colors[#colors + 1] = skin[k] end
@@ -240,6 +241,7 @@ local function save_sheet()
         local file = "levels_" .. side .. ".png"
         lissom.render{ meshes = meshes, strands = strands, columns = 3, captions = captions,
             camera = hairdo.camera(style, hair, side), size = { params.size, params.size },
+            background = "#c8ccd2",
             hair = { unit = unit, root_tone = 1, tip_tone = 1, clump_tone = 0.08 }, file = path(file) }
         files[#files + 1] = file
     end
