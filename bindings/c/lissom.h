@@ -1031,6 +1031,66 @@ LISSOM_API lissom_status lissom_deformer_encode_keyed_basis(lissom_context* cont
                                                             size_t transform_count,
                                                             size_t key_count, lissom_bytes* bytes);
 
+// ---- Bones: chains of handles that turn at joints. Each bone holds the surface around its middle,
+// and the solver finds how the rest follows. A chain is a part of its deformer and named by the
+// number of its first handle, `bones`; bone i, from 0, is the handle `bones` + i. Poses hold
+// transforms of handles and know bones by them.
+
+typedef struct lissom_bones_options {
+    size_t struct_size;
+    /// For each bone the greatest angle from its rest direction, as seen from the bone before it,
+    /// in radians; no element: no limits.
+    lissom_input limits;
+    /// Part of each bone's length, around its middle, along which it holds the surface; above 0, at
+    /// most 1.
+    double share;
+} lissom_bones_options;
+
+LISSOM_API lissom_bones_options lissom_default_bones_options(void);
+
+/// Lays a chain of bones into a limb. `mesh` is the one that the deformer was made for, or a copy;
+/// `joints` (triples) lie within the surface at rest, from the base to the tip. Errors:
+/// INVALID_ARGUMENT for fewer than two joints, bones without length, options out of range, and
+/// naming the joint outside the surface or the bone that holds nothing; NOT_FINITE; HANDLE_OVERLAP;
+/// TOPOLOGY_MISMATCH; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_deformer_add_bones(lissom_context* context,
+                                                   lissom_deformer deformer, lissom_mesh mesh,
+                                                   const lissom_input* joints,
+                                                   const lissom_bones_options* options,
+                                                   int32_t* bones);
+/// Removes a chain and its handles. This and the functions below fail with HANDLE_REMOVED once one
+/// of its handles is removed.
+LISSOM_API lissom_status lissom_deformer_remove_bones(lissom_context* context,
+                                                      lissom_deformer deformer, int32_t bones);
+/// Turns a bone, and those behind it, about its first joint by an angle in radians about an axis of
+/// any length, within its limit. Errors: OUT_OF_RANGE; INVALID_ARGUMENT for an axis without length;
+/// NOT_FINITE.
+LISSOM_API lissom_status lissom_deformer_turn_bone(lissom_context* context,
+                                                   lissom_deformer deformer, int32_t bones,
+                                                   int32_t bone, const double axis[3],
+                                                   double angle);
+/// Inverse kinematics: turns bones so that the tip comes to a point, or as near to it as lengths
+/// and limits let it. A stretched chain whose target lies along it bends about `axis`; zeros are
+/// one square to it. Receives the distance that is left. Errors: NOT_FINITE, also beyond 1e100.
+LISSOM_API lissom_status lissom_deformer_reach_with_bones(lissom_context* context,
+                                                          lissom_deformer deformer, int32_t bones,
+                                                          const double target[3],
+                                                          const double axis[3], double* distance);
+/// Puts the first joint at a point; all bones go along as they are. Errors: NOT_FINITE.
+LISSOM_API lissom_status lissom_deformer_move_bones(lissom_context* context,
+                                                    lissom_deformer deformer, int32_t bones,
+                                                    const double base[3]);
+/// Puts all bones of a chain back to rest.
+LISSOM_API lissom_status lissom_deformer_reset_bones(lissom_context* context,
+                                                     lissom_deformer deformer, int32_t bones);
+/// Returns the number of joints of a chain, or -1 if there is none of that number.
+LISSOM_API int32_t lissom_deformer_joint_count(lissom_context* context, lissom_deformer deformer,
+                                               int32_t bones);
+/// Writes the joints of a chain as they are now, one triple each, by the transforms of its handles.
+LISSOM_API lissom_status lissom_deformer_read_joints(lissom_context* context,
+                                                     lissom_deformer deformer, int32_t bones,
+                                                     const lissom_output* joints);
+
 // ---- Poses
 
 /// Makes a value of the present transforms of all handles and of the points that vertices are

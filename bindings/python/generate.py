@@ -40,6 +40,7 @@ OUTPUTS = {
     "render_map_read_attribute": ("self.size", "mesh.attribute_named(name).width", "d"),
     "region_read_vertices": ("self.size", 1, "i"), "deformer_read_rows": ("self.row_count", 1, "i"),
     "deformer_read_positions": ("self.row_count", 3, "d"), "deformer_read_normals": ("self.row_count", 3, "d"),
+    "deformer_read_joints": ("self.joint_count(bones)", 3, "d"),
     "pose_space_read_positions": ("self.vertex_count", 3, "d"),
     "hairstyle_read_curves": ("self.curve_count", 1, "i"),
     "strands_read_points": ("self.point_count", 3, "d"), "strands_read_offsets": ("self.size + 1", 1, "i"),
@@ -49,7 +50,7 @@ OUTPUTS = {
 }
 # Numbers in an element of a list that is read.
 INPUTS = {"positions": 3, "points": 3, "spine": 3, "normals": 3, "corners": 1, "sizes": 1, "vertices": 1, "labels": 1,
-          "offsets": 1, "uvs": 2, "weights": 1, "correctives": 1}
+          "offsets": 1, "uvs": 2, "weights": 1, "correctives": 1, "joints": 3}
 # Names of methods that are other than those of C.
 NAMES = {"mesh_attribute": "attribute_at", "mesh_find_attribute": "attribute_named", "object_numbers_create": "of_numbers"}
 # Help for functions whose comments in C are those of a group.

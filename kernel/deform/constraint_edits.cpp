@@ -342,10 +342,38 @@ void ConstraintEdit::remove_handle(HandleId id) {
     const Index partner = handle_of(constraints, id).partner;
     constraints.handles[id.value] = nullptr;
     poses.handles[id.value] = {};
+    std::erase_if(constraints.bones, [&](const auto& bones) {
+        return std::find(bones->handles.begin(), bones->handles.end(), id) != bones->handles.end();
+    });
     if (partner == kNoIndex) return;
     Handle alone = *constraints.handles[partner];
     alone.partner = kNoIndex;
     constraints.handles[partner] = std::make_shared<const Handle>(std::move(alone));
+}
+
+void ConstraintEdit::add_bones(Bones bones) {
+    const std::size_t count = bones.handles.size();
+    require(count > 0 && bones.joints.size() == count + 1 &&
+                (bones.limits.empty() || bones.limits.size() == count),
+            "bones have one joint more than handles, and one limit for each of these or none");
+    for (std::size_t i = 0; i <= count; ++i) {
+        require(bones.joints[i].allFinite(), "a joint is not finite", ErrorCode::not_finite);
+        require(i == 0 || bones.joints[i] != bones.joints[i - 1],
+                "bone " + std::to_string(i) + " has no length");
+    }
+    for (const double limit : bones.limits) {
+        require(limit >= 0.0 && limit <= kPi + 1e-9, "limits are angles from 0 to 180 degrees");
+    }
+    for (auto handle = bones.handles.begin(); handle != bones.handles.end(); ++handle) {
+        (void)handle_of(constraints, *handle);
+        bool is_taken = std::find(bones.handles.begin(), handle, *handle) != handle;
+        for (const auto& other : constraints.bones) {
+            const auto& taken = other->handles;
+            is_taken = is_taken || std::find(taken.begin(), taken.end(), *handle) != taken.end();
+        }
+        require(!is_taken, "a handle belongs to one bone at most");
+    }
+    constraints.bones.push_back(std::make_shared<const Bones>(std::move(bones)));
 }
 
 void ConstraintEdit::set_stiffness(const Region& vertices, double factor) {
@@ -425,8 +453,19 @@ Poses resting_poses(const RestShape& rest, const ConstraintSet& constraints) {
     return poses;
 }
 
-ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints) {
+ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints,
+                       const Poses& poses) {
     ConstraintSet moved = constraints;
+    for (auto& bones : moved.bones) {
+        Bones next = *bones;
+        const auto map = [&](std::size_t i) -> const Affine& {
+            return poses.handles[at(next.handles[i].value)].transform;
+        };
+        const std::size_t count = next.handles.size();
+        for (std::size_t i = 0; i < count; ++i) next.joints[i] = map(i)(next.joints[i]);
+        next.joints[count] = map(count - 1)(next.joints[count]);
+        bones = std::make_shared<const Bones>(std::move(next));
+    }
     for (auto& handle : moved.handles) {
         if (!handle) continue;
         Handle next = *handle;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/index.h"
+#include "kernel/deform/holds/bone_handles.h"
 #include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/mirror_surface.h"
 #include "kernel/deform/holds/poses.h"
@@ -29,7 +30,11 @@ struct ConstraintEdit {
     HandleId add_handle(std::span<const MeshPoint> points, const HandleOptions& options);
     HandleId mirror_handle(HandleId id, const MirrorPlane& plane);
     void set_handle_region(HandleId id, const Region& vertices);
+    /// Bones of the handle go too: its handles stay, and are no chain any more.
     void remove_handle(HandleId id);
+    /// Errors: invalid_argument for numbers of joints, limits and handles that do not fit, bones
+    /// without length and handles of other bones; not_finite; handle_removed.
+    void add_bones(Bones bones);
     void set_stiffness(const Region& vertices, double factor);
     /// Replaces the target of a point by `asked`, which may be empty.
     void set_target(Target target, const TargetPose& pose);
@@ -59,7 +64,8 @@ TargetPlace find_target(const ConstraintSet& constraints, const Target& target);
 /// Returns the poses of everything at rest: handles and targets keep their present places.
 Poses resting_poses(const RestShape& rest, const ConstraintSet& constraints);
 
-/// `holds` for another rest shape of the same region.
-ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints);
+/// `constraints` for another rest shape of the same region, to which `poses` led: joints of bones
+/// lie where these carry them.
+ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints, const Poses& poses);
 
 }  // namespace lissom

@@ -246,7 +246,8 @@ void Deformer::rebase() {
     State& s = *state_;
     with_memory_errors([&] {
         const auto rest = rebased(*s.rest, *s.shown);
-        auto constraints = std::make_shared<const ConstraintSet>(moved_to(*rest, *s.constraints));
+        auto constraints =
+            std::make_shared<const ConstraintSet>(moved_to(*rest, *s.constraints, s.poses));
         Poses poses = resting_poses(*rest, *constraints);
         poses.volume = s.poses.volume;
         DeformFrame frame = rest_frame(*rest);

@@ -158,6 +158,7 @@ DeformDescription describe(const DeformSnapshot& snapshot) {
         if (target.position) asked.position = snapshot.poses.targets[t].position;
         if (target.gradient) asked.gradient = snapshot.poses.targets[t].gradient;
     }
+    for (const auto& bones : constraints.bones) result.bones.push_back(*bones);
     if (constraints.stiffness) {
         for (const Index v : patch.of_region)
             result.stiffness.push_back((*constraints.stiffness)[at(v)]);
@@ -188,6 +189,7 @@ DeformSnapshot snapshot_of(const DeformDescription& description,
                         {asked.position.value_or(Vec3(Vec3::Zero())),
                          asked.gradient.value_or(Mat3(Mat3::Identity()))});
     }
+    for (const Bones& bones : description.bones) edit.add_bones(bones);
     auto shown = std::make_shared<const DeformFrame>(rest_frame(*rest));
     return {std::move(rest), std::make_shared<const ConstraintSet>(std::move(constraints)),
             std::move(poses), std::move(shown)};
@@ -229,6 +231,10 @@ std::size_t memory_bytes(const ConstraintSet& constraints) {
     }
     for (const auto& target : constraints.targets)
         bytes += sizeof *target + 2 * bytes_in(target->row);
+    for (const auto& bones : constraints.bones) {
+        bytes += sizeof *bones + bytes_in(bones->joints) + bytes_in(bones->limits) +
+                 bytes_in(bones->handles);
+    }
     return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/holds/bone_handles.h"
 #include "kernel/deform/holds/poses.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
@@ -36,6 +37,7 @@ struct DeformDescription {
     /// By HandleId; empty for a removed one.
     std::vector<std::optional<HandleDescription>> handles;
     std::vector<PointConstraint> constraints;
+    std::vector<Bones> bones;
     /// Stiffness of each vertex of the region, in its order; empty if all are 1.
     std::vector<double> stiffness;
     /// Share of the volume that is kept, if it is not that of the options.
@@ -46,8 +48,9 @@ DeformDescription describe(const DeformSnapshot& snapshot);
 
 /// Returns the snapshot of this description on a rest shape, which it shows: but for that to the
 /// bit the one described if the rest shape is the same. Errors: those of Deformer's add_handle,
-/// set_transform and constrain; invalid_argument for partners that are not each other's, or a
-/// stiffness that has not one factor a vertex of the region.
+/// set_transform and constrain; invalid_argument for partners that are not each other's, a
+/// stiffness that has not one factor a vertex of the region, or bones that share a handle or whose
+/// numbers do not fit.
 DeformSnapshot snapshot_of(const DeformDescription& description,
                            std::shared_ptr<const RestShape> rest);
 

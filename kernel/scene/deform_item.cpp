@@ -84,6 +84,11 @@ void add_handles(Hasher& hasher, const DeformDescription& description) {
         if (!handle) continue;
         add(hasher, *handle, handle->partner ? place[at(handle->partner->value)] : kNoIndex);
     }
+    for (const Bones& bones : description.bones) {
+        for (const HandleId id : bones.handles) hasher.add(place[at(id.value)]);
+        for (const Vec3& joint : bones.joints) add(hasher, joint);
+        hasher.add(bones.limits);
+    }
 }
 
 }  // namespace

@@ -246,6 +246,20 @@ class Work(unittest.TestCase):
         with self.assertRaises(ValueError):
             lissom.Deformer.create(mesh, second="none")
 
+    def test_bones_reach(self):
+        mesh = lissom.call("shapes.bar", across=4, along=20)
+        deformer = lissom.Deformer.create(mesh)
+        bones = deformer.add_bones(mesh, [[0, -1.5, 0], [0, 0.5, 0], [0, 2.5, 0]], limits=[2.0, 2.0])
+        deformer.turn_bone(bones, 1, (0, 0, 1), 0.5)
+        self.assertLess(deformer.reach_with_bones(bones, (1, 1, 0), (0, 0, 1)), 1e-8)
+        self.assertEqual(deformer.joint_count(bones), 3)
+        self.assertAlmostEqual(deformer.joints(bones).tolist()[2][0], 1, places=8)
+        deformer.solve()
+        deformer.remove_bones(bones)
+        with self.assertRaises(lissom.Error) as raised:
+            deformer.reset_bones(bones)
+        self.assertEqual(raised.exception.code, "handle_removed")
+
     def test_poses_blend(self):
         mesh = sphere()
         deformer = lissom.Deformer.create(mesh)

@@ -58,6 +58,19 @@ test("a bar is bent, undone, done again, and bent on by a number", function()
     end)
 end)
 
+test("a chain of bones is laid, reaches, is undone, and turns", function()
+    again("bones", one_bar, function(h)
+        h:drag{ { 0, -0.2, 0.5 }, { 0, 2.3, 0.5 } }
+        local tip = h.scene:get("bar deformation"):bones()[1]:joints()[4]
+        h:drag({ tip, { 1.2, 1.4, 0 } }, {}, 9)
+        h.host:undo()
+        h.host:redo()
+        local joints = h.scene:get("bar deformation"):bones()[1]:joints()
+        h:drag({ joints[3], { joints[3][1] - 0.5, joints[3][2], 0 } }, {}, 9)
+        h:key("r")
+    end)
+end)
+
 test("a part is painted in many strokes, each of which adds to what was there", function()
     again("deform", one_bar, function(h)
         h:drag({ { -0.5, -2.4, 0.5 }, { 0.5, -2, 0.5 }, { -0.5, -1, 0.5 } }, {}, 3)

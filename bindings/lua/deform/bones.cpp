@@ -18,8 +18,11 @@ constexpr double kDegree = kPi / 180.0;
 struct BonesObject {
     static constexpr const char* kTypeName = "lissom.Bones";
 
+    const Bones& bones() const { return bones_with(edit->deformer(), first); }
+
     std::shared_ptr<DeformObject> edit;
-    Bones bones;
+    /// The first handle of the chain, which names it.
+    HandleId first;
 };
 
 int add_bones_of(Call& call) {
@@ -36,11 +39,28 @@ int add_bones_of(Call& call) {
         for (const double limit : limits) options.limits.push_back(limit * kDegree);
         options.share = share;
         call.reserve(edit, handle_bytes(at(edit->mesh->mesh.vertex_count())));
-        Bones made = add_bones(deformer, edit->mesh->mesh, options, call.context());
-        result.set(std::make_shared<BonesObject>(BonesObject{edit.share(), std::move(made)}));
+        const Bones made = add_bones(deformer, edit->mesh->mesh, options, call.context());
+        result.set(std::make_shared<BonesObject>(BonesObject{edit.share(), made.handles.front()}));
     });
     if (!done) return call.fail();
     call.charge(edit);
+    return 1;
+}
+
+int bones_in(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    auto& chains = call.hold<std::vector<Bones>>();
+    if (!call.attempt_quick([&] { chains = bones_of(edit->deformer()); })) return call.fail();
+    lua_createtable(call.lua(), count_of(chains), 0);
+    for (Index i = 0; i < count_of(chains); ++i) {
+        const auto result = call.create<BonesObject>();
+        const bool done = call.attempt_quick([&] {
+            result.set(std::make_shared<BonesObject>(
+                BonesObject{edit.share(), chains[at(i)].handles.front()}));
+        });
+        if (!done) return call.fail();
+        lua_rawseti(call.lua(), -2, i + 1);
+    }
     return 1;
 }
 
@@ -50,9 +70,10 @@ bool change_chain(Call& call, const Work& work) {
     const auto self = call.self<BonesObject>();
     return call.attempt_quick([&] {
         Deformer& deformer = self->edit->deformer();
-        BoneChain chain = chain_of(deformer, self->bones);
+        const Bones& bones = self->bones();
+        BoneChain chain = chain_of(deformer, bones);
         work(chain);
-        set_bones(deformer, self->bones, chain);
+        set_bones(deformer, bones, chain);
     });
 }
 
@@ -84,8 +105,8 @@ int reach_with_bones(Call& call) {
 int reset_bones(Call& call) {
     const auto self = call.self<BonesObject>();
     const bool done = call.attempt_quick([&] {
-        set_bones(self->edit->deformer(), self->bones,
-                  BoneChain(self->bones.joints, self->bones.limits));
+        const Bones& bones = self->bones();
+        set_bones(self->edit->deformer(), bones, BoneChain(bones.joints, bones.limits));
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -94,7 +115,7 @@ int bone_joints(Call& call) {
     auto& joints = call.hold<std::vector<Vec3>>();
     const auto self = call.self<BonesObject>();
     const bool done = call.attempt_quick(
-        [&] { joints = chain_of(self->edit->deformer(), self->bones).joints(); });
+        [&] { joints = chain_of(self->edit->deformer(), self->bones()).joints(); });
     if (!done) return call.fail();
     lua_createtable(call.lua(), count_of(joints), 0);
     for (Index i = 0; i < count_of(joints); ++i) {
@@ -109,22 +130,43 @@ int bone_handle(Call& call) {
     const Index bone = call.id("bone");
     const auto result = call.create<HandleObject>();
     const bool done = call.attempt_quick([&] {
-        require(bone < count_of(self->bones.handles), "there is no such bone",
-                ErrorCode::out_of_range);
-        result.set(std::make_shared<HandleObject>(
-            HandleObject{self->edit, self->bones.handles[at(bone)]}));
+        const Bones& bones = self->bones();
+        require(bone < count_of(bones.handles), "there is no such bone", ErrorCode::out_of_range);
+        result.set(
+            std::make_shared<HandleObject>(HandleObject{self->edit, bones.handles[at(bone)]}));
     });
     return done ? 1 : call.fail();
 }
 
+int remove_all(Call& call) {
+    const auto self = call.self<BonesObject>();
+    const bool done = call.attempt_quick([&] {
+        const Bones bones = self->bones();
+        remove_bones(self->edit->deformer(), bones);
+    });
+    return done ? 0 : call.fail();
+}
+
+int equal_bones(Call& call) {
+    const auto a = call.self<BonesObject>(1), b = call.self<BonesObject>(2);
+    return call.push(a->edit == b->edit && a->first == b->first);
+}
+
 int bones_size(Call& call) {
-    return call.push(count_of(call.self<BonesObject>()->bones.handles));
+    const auto self = call.self<BonesObject>();
+    Index count = 0;
+    if (!call.attempt_quick([&] { count = count_of(self->bones().handles); })) return call.fail();
+    return call.push(count);
 }
 
 int bones_text(Call& call) {
+    const auto self = call.self<BonesObject>();
+    Index count = 0;
+    if (!call.attempt_quick([&] { count = count_of(self->bones().handles); })) {
+        return call.push(std::string_view("lissom.Bones (removed)"));
+    }
     char text[48];
-    const int length = std::snprintf(text, sizeof text, "lissom.Bones: %d bones",
-                                     count_of(call.self<BonesObject>()->bones.handles));
+    const int length = std::snprintf(text, sizeof text, "lissom.Bones: %d bones", count);
     return call.push(std::string_view(text, at(length)));
 }
 
@@ -165,6 +207,7 @@ std::vector<Function> bones_methods() {
                              .defaults(ReachOptions().rounds)
                              .between(1, 10'000)},
              .results = {{"number", "distance", "The distance from the tip that is left."}},
+             .effect = Effect::changes,
              .errors = kBoneErrors,
              .example = kArm + "assert(arm:reach({ 1, 1.5, 0 }, { axis = \"z\" }) < 1e-4)\n"
                                "deformer:solve()"},
@@ -194,7 +237,13 @@ std::vector<Function> bones_methods() {
              .arguments = {id("bone", "Its number, from the base.")},
              .results = {{"lissom.Handle", "handle", "The handle."}},
              .errors = kBoneErrors,
-             .example = kArm + "assert(#arm:handle(1):region() > 0)"}};
+             .example = kArm + "assert(#arm:handle(1):region() > 0)"},
+            {.name = "remove",
+             .body = remove_all,
+             .summary = "Removes the chain and its handles: the surface that they held is free.",
+             .effect = Effect::changes,
+             .errors = {ErrorCode::handle_removed, ErrorCode::topology_mismatch},
+             .example = kArm + "arm:remove()\nassert(#deformer:bones() == 0)"}};
 }
 
 }  // namespace
@@ -219,18 +268,34 @@ Function add_bones_method() {
                             .above(0)
                             .between(0, 1)},
             .results = {{"lissom.Bones", "bones", "Turn them, then solve."}},
+            .effect = Effect::changes,
             .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite,
                        ErrorCode::handle_overlap, ErrorCode::handle_outside_region,
                        ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
             .example = kArm + "arm:turn(2, \"x\", 45)\ndeformer:solve()"};
 }
 
+Function list_bones_method() {
+    return {.name = "bones",
+            .body = bones_in,
+            .summary =
+                "Returns the chains of bones, in the order they were added. A chain goes when "
+                "one of its handles is removed; its other handles stay.",
+            .results = {{"lissom.Bones[]", "chains", "The chains."}},
+            .errors = {ErrorCode::handle_removed, ErrorCode::topology_mismatch},
+            .example = kArm + "assert(#deformer:bones() == 1 and deformer:bones()[1] == arm)"};
+}
+
 Type bones_type() {
-    return {.name = "lissom.Bones",
-            .summary = "A chain of bones in a deformer. Its pose is that of its handles.",
-            .methods = bones_methods(),
-            .operators = {{"__len", bones_size, "#bones", "number of bones"},
-                          {"__tostring", bones_text, "tostring(bones)", "counts"}}};
+    return {
+        .name = "lissom.Bones",
+        .summary =
+            "A chain of bones in a deformer, which keeps it: it is undone and saved with scenes. "
+            "Its pose is that of its handles.",
+        .methods = bones_methods(),
+        .operators = {{"__len", bones_size, "#bones", "number of bones"},
+                      {"__eq", equal_bones, "a == b", "the same chain of the same deformer"},
+                      {"__tostring", bones_text, "tostring(bones)", "counts"}}};
 }
 
 }  // namespace lissom::lua

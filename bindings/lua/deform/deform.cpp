@@ -728,6 +728,7 @@ deformer:solve())"},
     for (Function& method : contact_methods()) type.methods.push_back(std::move(method));
     for (Function& method : pose_methods()) type.methods.push_back(std::move(method));
     type.methods.push_back(add_bones_method());
+    type.methods.push_back(list_bones_method());
     for (Function& method : attachment_methods()) type.methods.push_back(std::move(method));
     return type;
 }

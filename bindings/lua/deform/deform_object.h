@@ -67,8 +67,9 @@ void push_contacts(Call& call, const DeformObject& edit, const std::vector<FaceP
 /// Returns the method contacts of a deformer.
 std::vector<Function> contact_methods();
 
-/// Returns the method add_bones of a deformer.
+/// Returns the methods add_bones and bones of a deformer.
 Function add_bones_method();
+Function list_bones_method();
 
 /// Returns the methods attach and detach of a deformer.
 std::vector<Function> attachment_methods();

@@ -111,6 +111,7 @@ assert(math.abs(top:matrix()[1][1]) < 1e-9))"},
              .arguments = {object("pose", "lissom.Pose",
                                   "A pose of this deformer, and of its present rest shape.")},
              .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
+             .effect = Effect::replaces,
              .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
                         ErrorCode::topology_mismatch},
              .example = kPosedBar + R"(deformer:set_pose(straight:blend(wound, 0.5))

@@ -1825,6 +1825,10 @@ function Deformer:set_pose(pose) end
 ---@return lissom.Bones bones # Turn them, then solve.
 function Deformer:add_bones(options) end
 
+---Returns the chains of bones, in the order they were added. A chain goes when one of its handles is removed; its other handles stay.
+---@return lissom.Bones[] chains # The chains.
+function Deformer:bones() end
+
 ---@class lissom.Deformer.AttachOptions
 ---@field mode? "components"|"vertices" Pieces that keep their shape: connected components, such as buttons and eyes; or none, each vertex follows the surface nearest to it, as clothes do. Default: "components".
 ---@field scale? boolean Whether pieces grow and shrink with the surface below them. Default: false.
@@ -1932,7 +1936,7 @@ function Handle:remove() end
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Handle:close() end
 
----A chain of bones in a deformer. Its pose is that of its handles.
+---A chain of bones in a deformer, which keeps it: it is undone and saved with scenes. Its pose is that of its handles.
 ---@class lissom.Bones
 ---@operator len: integer
 local Bones = {}
@@ -1973,6 +1977,9 @@ function Bones:joints() end
 ---@param bone integer Its number, from the base.
 ---@return lissom.Handle handle # The handle.
 function Bones:handle(bone) end
+
+---Removes the chain and its handles: the surface that they held is free.
+function Bones:remove() end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Bones:close() end

@@ -55,6 +55,11 @@ local function origin(scene, object)
                 if handle == object then return { handle = held, index = i } end
             end
         end
+        if kind == "lissom.Bones" and type_of(held) == "lissom.Deformer" then
+            for i, bones in ipairs(held:bones()) do
+                if bones == object then return { bones = held, index = i } end
+            end
+        end
     end
     return nil
 end
@@ -63,11 +68,14 @@ end
 local Journal = {}
 Journal.__index = Journal
 
--- One object for all that are the same handle.
+-- Objects of which there may be several for one handle or one chain of bones.
+local several = set_of{ "lissom.Handle", "lissom.Bones" }
+
+-- One object for all that are the same handle or chain.
 function Journal:same(object)
-    if type_of(object) ~= "lissom.Handle" then return object end
+    if not several[type_of(object)] then return object end
     for _, handle in ipairs(self.handles) do
-        if handle == object then return handle end
+        if type_of(handle) == type_of(object) and handle == object then return handle end
     end
     table.insert(self.handles, object)
     return object
@@ -78,7 +86,7 @@ function Journal:see(object)
     local found = origin(self.host.scene, object)
     if not found then return end
     self.origins[object] = found
-    local owner = found.region or found.boundary or found.path or found.handle
+    local owner = found.region or found.boundary or found.path or found.handle or found.bones
     if owner then self:see(owner) end
 end
 
@@ -130,7 +138,7 @@ end
 
 -- ---- Leaving out calls that the next drag replaces
 
--- A number of its own for each mesh, however alike two are.
+-- A number of its own for each mesh or deformer, however alike two are.
 local numbers = setmetatable({}, { __mode = "k" })
 local last_number = 0
 
@@ -146,6 +154,7 @@ local function part_of(mesh, what, which) return number_of(mesh) .. " " .. what 
 
 local function target(call)
     if call.effect ~= "replaces" then return nil end
+    if call.name == "set_pose" then return part_of(call.arguments[1], "pose") end
     if call.kind ~= "lissom.Mesh" then return call.arguments[1] end
     return part_of(call.arguments[1], call.name:match("region$") or call.name, call.arguments[2])
 end
@@ -158,13 +167,15 @@ end
 
 -- Targets of each call of a group, if all of it is replaced first of all; and the targets that are
 -- not read before, so that groups before this one leave nothing of them.
-local function targets(group)
+local function targets(group, owner_of)
     local replaced, all, read = {}, {}, {}
     for _, call in ipairs(group) do
         local from = source(call)
         if from and not replaced[from] then read[from] = true end
         if call.changes then
             local key = target(call) or (call.kind == "lissom.Handle" and call.arguments[1])
+            local deformer = call.kind == "lissom.Bones" and owner_of(call.arguments[1])
+            if deformer then key = part_of(deformer, "pose") end
             if not key then return nil end
             if target(call) then replaced[key] = true end
             if not replaced[key] then return nil end
@@ -176,12 +187,12 @@ local function targets(group)
     return all, renewed
 end
 
-local function told_groups(groups)
+local function told_groups(groups, owner_of)
     local kept, later = {}, nil
     for i = #groups, 1, -1 do
         local group = groups[i]
         local own, renewed
-        if group.drag then own, renewed = targets(group) end
+        if group.drag then own, renewed = targets(group, owner_of) end
         local replaced = own and later
         for key in pairs(own or {}) do replaced = replaced and later[key] end
         if not replaced then table.insert(kept, 1, group) end
@@ -254,6 +265,8 @@ function Writer:object(object)
         return self:bind(object, from.name, "scene:get(" .. quoted(from.name) .. ")")
     elseif from.handle then
         return self:object(from.handle) .. ":handles()[" .. from.index .. "]"
+    elseif from.bones then
+        return self:object(from.bones) .. ":bones()[" .. from.index .. "]"
     elseif from.region then
         return self:object(from.region) .. ":region{ vertices = " .. ranges(from.ids) .. " }"
     elseif from.boundary then
@@ -325,6 +338,11 @@ end
 -- use.
 function Journal:needed_calls()
     local needed = {}
+    -- The deformer of a chain of bones.
+    local function owner_of(bones)
+        local from, made = self.origins[bones], self.made[bones]
+        return from and from.bones or made and made.call.arguments[1]
+    end
     local function need(call)
         if needed[call] then return end
         needed[call] = true
@@ -334,7 +352,7 @@ function Journal:needed_calls()
             return object
         end, -1)
     end
-    for _, group in ipairs(told_groups(self.groups)) do
+    for _, group in ipairs(told_groups(self.groups, owner_of)) do
         for _, call in ipairs(group) do
             if call.changes then need(call) end
         end

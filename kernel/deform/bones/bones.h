@@ -8,6 +8,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/deform/bones/bone_chain.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/holds/bone_handles.h"
 #include "kernel/deform/options.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
@@ -15,7 +16,8 @@
 namespace lissom {
 
 struct BonesOptions {
-    /// Joints in the rest pose, from the base to the tip, within the surface; two at least.
+    /// Joints in the rest pose, from the base to the tip, within the surface, of which the first
+    /// and the last may stick out a little; two at least.
     std::vector<Vec3> joints;
     /// As of BoneChain.
     std::vector<double> limits = {};
@@ -24,26 +26,27 @@ struct BonesOptions {
     double share = 0.3;
 };
 
-/// A chain of bones in a deformer. Its pose is that of its handles: it has no other state.
-struct Bones {
-    std::vector<Vec3> joints;
-    std::vector<double> limits;
-    /// One for each bone.
-    std::vector<HandleId> handles;
-};
-
 /// Returns for each bone the vertices that it holds: those in `region` that are nearer to it than
 /// to the other bones, lie beside its middle share, and see it from within the surface. Coarse
 /// meshes, which have none there, give the nearest beside the bone's middle. Errors:
-/// invalid_argument for options out of range, and naming the bone, if no vertex sees it; as
-/// BoneChain; memory_limit; cancelled.
+/// invalid_argument for options out of range, and naming the bone, if no vertex sees it, or the
+/// joint, if it lies outside a surface that has an inside; as BoneChain; memory_limit; cancelled.
 std::vector<Region> bone_regions(const Mesh& rest, const Region& region,
                                  const BonesOptions& options, const Context& context = {});
 
-/// Adds a handle for each bone. `mesh` is that of the deformer. Errors: as bone_regions and
-/// Deformer::add_handle; no handle is added then.
+/// Adds a handle for each bone. `mesh` is that of the deformer, which keeps the chain along with
+/// its handles: in snapshots, scene files, and through a rebase, after which limits count from the
+/// new rest. Errors: as bone_regions and Deformer::add_handle; no handle is added then.
 Bones add_bones(Deformer& deformer, const Mesh& mesh, const BonesOptions& options,
                 const Context& context = {});
+
+/// Returns the chains of a deformer, in the order they were added. A chain goes when one of its
+/// handles is removed.
+std::vector<Bones> bones_of(const Deformer& deformer);
+/// Returns the chain of which this is the first handle. Errors: handle_removed if there is none.
+const Bones& bones_with(const Deformer& deformer, HandleId first);
+/// Removes a chain and its handles. Errors: handle_removed.
+void remove_bones(Deformer& deformer, const Bones& bones);
 
 /// Returns the chain as its handles are now. Errors: handle_removed.
 BoneChain chain_of(const Deformer& deformer, const Bones& bones);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/rotation/polar.h"
@@ -80,12 +82,20 @@ std::vector<Index> movable_handles(const Preparation& prepared) {
     return movable;
 }
 
+std::vector<std::span<const Index>> groups_of(const Preparation& prepared,
+                                              const std::vector<Index>& handles) {
+    std::vector<std::span<const Index>> groups;
+    for (const Index h : handles) groups.push_back(prepared.held[at(h)]);
+    return groups;
+}
+
 // Moves each movable handle by one unit in the second system alone.
 HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratch& scratch,
                              const Context& context) {
     const RotationSystem& second = *prepared.implicit()->second;
     const std::vector<Index>& all = prepared.implicit()->solution->handles();
     const std::vector<Index> movable = movable_handles(prepared);
+    const std::vector<std::span<const Index>> groups = groups_of(prepared, movable);
     const auto count = count_of(movable);
     HandleResponses answers{std::vector<RotationSystem::Response>(all.size()),
                             Eigen::MatrixXd(count, count), movable};
@@ -102,10 +112,10 @@ HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratc
             const auto n = std::find(all.begin(), all.end(), movable[k]) - all.begin();
             answers.of_handles[n] = std::move(responses[k - first]);
         }
+        const std::vector<Vec3> forces = second.forces(nullptr, x, groups, scratch, context);
         for (Index j = 0; j < count; ++j) {
-            const Vec3 force =
-                second.force(nullptr, x, prepared.held[movable[j]], scratch, context);
-            for (Index k = first; k < last; ++k) answers.stiffness(j, k) = -force[k - first];
+            for (Index k = first; k < last; ++k)
+                answers.stiffness(j, k) = -forces[at(j)][k - first];
         }
     }
     return answers;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/deform/holds/bone_handles.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/sparse_row.h"
@@ -42,7 +43,7 @@ struct Target {
     bool is_hard_vertex() const { return row.size() == 1 && !weight; }
 };
 
-/// Handles, constraints and stiffness.
+/// Handles, constraints, stiffness and bones.
 struct ConstraintSet {
     /// By HandleId; null for a removed one.
     std::vector<std::shared_ptr<const Handle>> handles;
@@ -50,6 +51,8 @@ struct ConstraintSet {
     std::vector<std::shared_ptr<const Target>> targets;
     /// Stiffness of each real vertex of the patch, or null if all are 1.
     std::shared_ptr<const std::vector<double>> stiffness;
+    /// In the order they were added; their handles are there.
+    std::vector<std::shared_ptr<const Bones>> bones = {};
 };
 
 }  // namespace lissom

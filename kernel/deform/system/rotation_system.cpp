@@ -316,6 +316,23 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
                            std::span<const Index> vertices, Scratch& scratch,
                            const Context& context) const {
     bend(transforms, x, scratch.bending, context);
+    return bent_force(transforms, x, vertices, scratch);
+}
+
+std::vector<Vec3> RotationSystem::forces(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                         std::span<const std::span<const Index>> groups,
+                                         Scratch& scratch, const Context& context) const {
+    bend(transforms, x, scratch.bending, context);
+    std::vector<Vec3> sums;
+    for (const auto& vertices : groups) {
+        sums.push_back(bent_force(transforms, x, vertices, scratch));
+    }
+    return sums;
+}
+
+// The force by the bending in `scratch`.
+Vec3 RotationSystem::bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                                std::span<const Index> vertices, Scratch& scratch) const {
     std::vector<Vec3>& parts = scratch.forces;
     parts.assign(vertices.size(), Vec3::Zero());
     energy().descend(transforms, x.data(), scratch.bending.data(), vertices.data(), parts.data(), 0,

@@ -89,6 +89,10 @@ class RotationSystem {
     /// positions x. Null transforms stand for zeros.
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
                std::span<const Index> vertices, Scratch& scratch, const Context& context) const;
+    /// Returns `force` of each of several groups of vertices, for one pass over the surface.
+    std::vector<Vec3> forces(const PaddedMat3* transforms, std::span<const Vec4> x,
+                             std::span<const std::span<const Index>> groups, Scratch& scratch,
+                             const Context& context) const;
 
     /// Coupling of known vertices that move together to the rest.
     struct Response {
@@ -121,6 +125,8 @@ class RotationSystem {
     void add_ties(const WorkingPatch& work);
     void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bending,
               const Context& context) const;
+    Vec3 bent_force(const PaddedMat3* transforms, std::span<const Vec4> x,
+                    std::span<const Index> vertices, Scratch& scratch) const;
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                        std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;
     void correct_further(std::span<Vec4> x, Scratch& scratch, const Context& context) const;

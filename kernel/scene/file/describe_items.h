@@ -14,6 +14,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/description.h"
+#include "kernel/deform/holds/bone_handles.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/hair/strands/strands.h"
@@ -238,6 +239,23 @@ void describe(Archive& a, PointConstraint& constraint) {
 }
 
 template <typename Archive>
+void describe(Archive& a, Bones& bones) {
+    std::vector<Index> handles;
+    for (const HandleId id : bones.handles) handles.push_back(id.value);
+    a.few("handles", handles);
+    bones.handles.clear();
+    for (const Index id : handles) bones.handles.push_back({id});
+    std::vector<double> joints;
+    for (const Vec3& joint : bones.joints) joints.insert(joints.end(), joint.begin(), joint.end());
+    a.few("joints", joints);
+    bones.joints.clear();
+    for (std::size_t i = 0; i + 2 < joints.size(); i += 3) {
+        bones.joints.emplace_back(joints[i], joints[i + 1], joints[i + 2]);
+    }
+    a.few("limits", bones.limits);
+}
+
+template <typename Archive>
 void describe(Archive& a, DeformRecord& record) {
     a.integer("mesh", record.mesh);
     a.list("region", record.region);
@@ -249,6 +267,12 @@ void describe(Archive& a, DeformRecord& record) {
               });
     a.objects("constraints", record.description.constraints,
               [](Archive& b, PointConstraint& x) { describe(b, x); });
+    std::optional<std::vector<Bones>> bones;
+    if (!record.description.bones.empty()) bones = record.description.bones;
+    a.optional("bones", bones, [](Archive& b, std::vector<Bones>& chains) {
+        b.objects("chains", chains, [](Archive& c, Bones& x) { describe(c, x); });
+    });
+    record.description.bones = bones.value_or(std::vector<Bones>());
     a.list("stiffness", record.description.stiffness);
     a.number("volume", record.description.volume);
     a.list("rest", record.rest);

@@ -223,6 +223,34 @@ std::vector<Given> region_cases() {
 
 std::vector<Given> deform_cases() {
     return {
+        {"lissom_deformer_add_bones", 12,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<12>({0, -2, 0, 0, 0.1, 0, 0, 2, 0, 1, 1, 0.3}, i, bad);
+             const lissom_input joints = triples(n.data(), 3);
+             auto options = lissom_default_bones_options();
+             options.limits = {n.data() + 9, 2, 0, LISSOM_FLOAT64};
+             options.share = n[11];
+             std::int32_t bones = -1;
+             return lissom_deformer_add_bones(world, world.boned, world.bar, &joints, &options,
+                                              &bones);
+         }},
+        {"lissom_deformer_turn_bone", 4,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<4>({0, 0, 1, 0.5}, i, bad);
+             return lissom_deformer_turn_bone(world, world.boned, world.bones, 1, n.data(), n[3]);
+         }},
+        {"lissom_deformer_reach_with_bones", 6,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<6>({1, 1, 0, 0, 0, 1}, i, bad);
+             double distance = 0.0;
+             return lissom_deformer_reach_with_bones(world, world.boned, world.bones, n.data(),
+                                                     n.data() + 3, &distance);
+         }},
+        {"lissom_deformer_move_bones", 3,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<3>({0, -1, 0}, i, bad);
+             return lissom_deformer_move_bones(world, world.boned, world.bones, n.data());
+         }},
         {"lissom_deformer_create", 1,
          [](World& world, int, double bad) {
              auto options = lissom_default_deformer_options();
@@ -504,7 +532,7 @@ bool takes_numbers(const std::string& parameters) {
         R"((const double\b|, double \w+[,)]|const lissom_transform\*|const lissom_placement\*|)"
         R"(const lissom_join\*|const lissom_(mesh_load|mesh_save|deformer|handle|cut|hairstyle|)"
         R"(grow|sandbox)_options\*|const lissom_buffer\*|)"
-        R"(lissom_input\* (points|positions|spine|values|weights|correctives)))");
+        R"(lissom_input\* (points|positions|spine|values|weights|correctives|joints)))");
     return std::regex_search(parameters, numbers);
 }
 
@@ -530,6 +558,7 @@ TEST_CASE("no function takes a number that is not finite, and nothing changes by
     options.write_file = [](void*, const char*, const void*, std::size_t) { return true; };
     World world(options);
     world.make_deformer();
+    world.make_bones();
     world.make_poses();
     world.make_halves();
     world.make_paste();

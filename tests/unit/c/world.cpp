@@ -66,6 +66,14 @@ void World::make_deformer() {
     REQUIRE(lissom_deformer_add_handle(context, deformer, bottom, nullptr, &handle) == LISSOM_OK);
 }
 
+void World::make_bones() {
+    drop_one(context, boned, lissom_deformer_release);
+    REQUIRE(lissom_deformer_create(context, bar, {0}, nullptr, &boned) == LISSOM_OK);
+    const double joints[] = {0, -2, 0, 0, 0.1, 0, 0, 2, 0};
+    const lissom_input list = triples(joints, 3);
+    REQUIRE(lissom_deformer_add_bones(context, boned, bar, &list, nullptr, &bones) == LISSOM_OK);
+}
+
 void World::make_poses() {
     drop_one(context, pose, lissom_pose_release);
     drop_one(context, space, lissom_pose_space_release);

@@ -19,6 +19,7 @@ class World {
 
     /// Make objects anew, the former ones released.
     void make_deformer();
+    void make_bones();
     void make_halves();
     /// A pose of the deformer at rest, and a space of the bar and a longer one.
     void make_poses();
@@ -40,6 +41,9 @@ class World {
     lissom_region all{}, bottom{}, top{};
     lissom_deformer deformer{};
     std::int32_t handle = -1;
+    /// A deformer of the bar with a chain of two bones.
+    lissom_deformer boned{};
+    std::int32_t bones = -1;
     lissom_pose pose{};
     lissom_pose_space space{};
     lissom_render_map map{};

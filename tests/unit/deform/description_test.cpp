@@ -81,6 +81,7 @@ void check_same(const DeformDescription& a, const DeformDescription& b) {
         CHECK(a.constraints[t].gradient.has_value() == b.constraints[t].gradient.has_value());
     }
     CHECK(a.stiffness == b.stiffness);
+    CHECK(a.bones == b.bones);
 }
 
 }  // namespace
@@ -113,6 +114,31 @@ TEST_CASE("description: vertices that two handles hold are named, each once") {
     CHECK(error.elements().kind == ElementKind::vertex);
     CHECK(error.elements().count == 2);
     CHECK(error.elements().ids == shared);
+}
+
+TEST_CASE("description: bones are described and made again, and bad ones refused") {
+    Held held;
+    DeformDescription good = held.described();
+    good.bones = {
+        {{{0, -1, 0}, {0, 0, 0}, {0, 1, 0}}, {0.5, 1.0}, {held.edit.low, held.edit.high}}};
+    check_same(describe(snapshot_of(good, held.rest())), good);
+    const auto refused = [&](const auto& spoil) {
+        DeformDescription bad = good;
+        spoil(bad.bones);
+        return held.refused(bad);
+    };
+    CHECK(refused([](auto& b) { b[0].limits.pop_back(); }) == ErrorCode::invalid_argument);
+    CHECK(refused([](auto& b) { b[0].limits[0] = 4.0; }) == ErrorCode::invalid_argument);
+    CHECK(refused([](auto& b) { b[0].joints.pop_back(); }) == ErrorCode::invalid_argument);
+    CHECK(refused([](auto& b) { b[0].joints[1] = b[0].joints[0]; }) == ErrorCode::invalid_argument);
+    CHECK(refused([](auto& b) { b[0].joints[1].x() = NAN; }) == ErrorCode::not_finite);
+    CHECK(refused([](auto& b) { b.push_back(b[0]); }) == ErrorCode::invalid_argument);
+    CHECK(refused([](auto& b) { b[0].handles[0] = b[0].handles[1]; }) ==
+          ErrorCode::invalid_argument);
+    for (const Index other : {-5, 2, 99}) {
+        CHECK(refused([&](auto& b) { b[0].handles[1] = HandleId{other}; }) ==
+              ErrorCode::handle_removed);
+    }
 }
 
 TEST_CASE("description: partners must be each other's") {

@@ -536,6 +536,46 @@ void add_deform_cases(std::vector<MemoryCase>& all) {
     });
 }
 
+void fresh_bones(World& world) {
+    world.make_bones();
+}
+
+void add_bone_cases(std::vector<MemoryCase>& all) {
+    const auto add = [&](const char* name, std::function<lissom_status(World&)> call) {
+        all.push_back({name, fresh_bones, std::move(call)});
+    };
+    static const double kTarget[] = {1, 1, 0}, kAxis[] = {0, 0, 1};
+    all.push_back({"lissom_deformer_add_bones", fresh_deformer, [](World& world) {
+                       const double joints[] = {0, -1, 0, 0, 0.1, 0, 0, 2, 0};
+                       const lissom_input list{joints, 3, 0, LISSOM_FLOAT64};
+                       std::int32_t bones = -1;
+                       return lissom_deformer_add_bones(world, world.deformer, world.bar, &list,
+                                                        nullptr, &bones);
+                   }});
+    add("lissom_deformer_remove_bones",
+        [](World& world) { return lissom_deformer_remove_bones(world, world.boned, world.bones); });
+    add("lissom_deformer_turn_bone", [](World& world) {
+        return lissom_deformer_turn_bone(world, world.boned, world.bones, 1, kAxis, 0.5);
+    });
+    add("lissom_deformer_reach_with_bones", [](World& world) {
+        double distance = 0.0;
+        return lissom_deformer_reach_with_bones(world, world.boned, world.bones, kTarget, kAxis,
+                                                &distance);
+    });
+    add("lissom_deformer_move_bones", [](World& world) {
+        return lissom_deformer_move_bones(world, world.boned, world.bones, kTarget);
+    });
+    add("lissom_deformer_reset_bones",
+        [](World& world) { return lissom_deformer_reset_bones(world, world.boned, world.bones); });
+    add("lissom_deformer_joint_count", [](World& world) {
+        return status_of_count(world, lissom_deformer_joint_count(world, world.boned, world.bones));
+    });
+    add("lissom_deformer_read_joints", [](World& world) {
+        const lissom_output out = doubles_out();
+        return lissom_deformer_read_joints(world, world.boned, world.bones, &out);
+    });
+}
+
 void fresh_poses(World& world) {
     world.make_poses();
 }
@@ -1007,6 +1047,9 @@ TEST_CASE("memory that runs out in calls of regions is a status") {
 TEST_CASE("memory that runs out in deformations is a status") {
     check_cases(add_deform_cases, 1);
 }
+TEST_CASE("memory that runs out in bones is a status") {
+    check_cases(add_bone_cases, 1);
+}
 TEST_CASE("memory that runs out in poses is a status") {
     check_cases(add_pose_cases, 1);
 }
@@ -1102,7 +1145,7 @@ TEST_CASE("those tests have every function of the header that may take memory") 
     std::vector<MemoryCase> all;
     for (Add* add :
          {add_mesh_cases, add_buffer_cases, add_job_cases, add_region_cases, add_deform_cases,
-          add_pose_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
+          add_bone_cases, add_pose_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
         add(all);
     }
     std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts",

@@ -2,10 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -48,7 +53,7 @@ TEST_CASE("bones: a turn takes the bones behind along, and no others") {
     CHECK((joints[4] - Vec3(-3, 1, 0)).norm() < 1e-12);
     check_lengths(chain);
     for (Index i = 0; i < chain.size(); ++i) {
-        const Affine map = chain.transform(i);
+        const Affine map = chain.transforms()[at(i)];
         CHECK((map(chain.rest()[at(i)]) - joints[at(i)]).norm() < 1e-12);
         CHECK((map(chain.rest()[at(i + 1)]) - joints[at(i + 1)]).norm() < 1e-12);
     }
@@ -67,11 +72,70 @@ TEST_CASE("bones: the tip comes to any point that the chain can reach") {
 TEST_CASE("bones: beyond its reach a chain stretches towards the target") {
     BoneChain chain = finger();
     const Vec3 target(6, 6, 0);
-    const double off = chain.reach(target, {.rounds = 2000});
-    CHECK(off == doctest::Approx(target.norm() - 4.0).epsilon(1e-3));
+    CHECK(std::abs(chain.reach(target) - (target.norm() - 4.0)) < 1e-12);
+    check_lengths(chain);
     BoneChain straight = finger();
     CHECK(straight.reach({0, 9, 0}) == doctest::Approx(5.0));
     CHECK((straight.joints().back() - Vec3(0, 4, 0)).norm() < 1e-9);
+    // A long bone leaves a ball around the base that the tip cannot enter.
+    BoneChain stiff({{0, 0, 0}, {0, 0.5, 0}, {0, 3, 0}, {0, 3.5, 0}});
+    CHECK(std::abs(stiff.reach({0.3, 0.4, 0}) - 1.0) < 1e-12);
+    CHECK((stiff.joints().back() - Vec3(0.9, 1.2, 0)).norm() < 1e-12);
+    check_lengths(stiff);
+    CHECK(std::abs(stiff.reach({0, 0, 0}) - 1.5) < 1e-12);
+}
+
+TEST_CASE("bones: near full stretch and full fold the tip comes to the target exactly") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<Vec3> joints = {Vec3::Zero()};
+        const int bones = 2 + trial % 7;
+        for (int i = 0; i < bones; ++i) {
+            joints.push_back(joints.back() + Vec3(number(random), 1.5, number(random)));
+        }
+        BoneChain chain(joints);
+        double longest = 0.0;
+        for (const double length : lengths_of(joints)) longest = std::max(longest, length);
+        const double inner = std::max(0.0, 2.0 * longest - chain.length());
+        const Vec3 way = Vec3(number(random), number(random), number(random)).normalized();
+        for (const double share : {1e-6, 1e-3, 0.5, 0.98, 0.999, 0.999999}) {
+            const Vec3 target = (inner + share * (chain.length() - inner)) * way;
+            const double off = chain.reach(target);
+            CHECK(off < 1e-8 * chain.length());
+            CHECK(std::abs((chain.joints().back() - target).norm() - off) < 1e-12);
+            check_lengths(chain);
+        }
+    }
+}
+
+TEST_CASE("bones: with limits too, no reach leaves the tip farther away, and near ones are exact") {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int trial = 0; trial < 100; ++trial) {
+        const std::vector<double> limits{1.5, 0.9, 0.7, 0.4};
+        BoneChain goal = finger(limits), chain = finger(limits);
+        for (Index i = 0; i < 4; ++i) {
+            goal.turn(i, Vec3(number(random), number(random), number(random)), number(random));
+        }
+        const Vec3 target = goal.joints().back();
+        double before = (chain.joints().back() - target).norm();
+        for (int round = 0; round < 20; ++round) {
+            const double off = chain.reach(target, {.rounds = 5});
+            CHECK(off <= before);
+            before = off;
+        }
+        CHECK(before < 1e-6);
+        for (Index i = 0; i < 4; ++i) CHECK(angle_between(chain, i) <= limits[at(i)] + 1e-6);
+    }
+}
+
+TEST_CASE("bones: a chain of many bones reaches in a few rounds") {
+    std::vector<Vec3> joints;
+    for (int i = 0; i <= 600; ++i) joints.push_back({0, 0.01 * i, 0});
+    BoneChain chain(joints);
+    CHECK(chain.reach({2, 1, 1}, {.rounds = 60}) < 1e-8);
+    check_lengths(chain);
 }
 
 TEST_CASE("bones: a stretched chain folds about the axis that is given") {
@@ -121,6 +185,9 @@ TEST_CASE("bones: bad chains, turns and targets are refused") {
     CHECK(code_of([&] { chain.turn(4, Vec3::UnitX(), 1.0); }) == ErrorCode::out_of_range);
     CHECK(code_of([&] { chain.turn(0, Vec3::Zero(), 1.0); }) == ErrorCode::invalid_argument);
     CHECK(code_of([&] { chain.reach({INFINITY, 0, 0}); }) == ErrorCode::not_finite);
+    CHECK(code_of([&] { chain.reach({1e154, 0, 0}); }) == ErrorCode::not_finite);
+    CHECK(code_of([&] { chain.set_base({0, 1e154, 0}); }) == ErrorCode::not_finite);
+    CHECK(code_of([] { BoneChain({{0, 0, 0}, {1e154, 0, 0}}); }) == ErrorCode::not_finite);
     CHECK(code_of([&] { chain.reach({1, 0, 0}, {.rounds = 0}); }) == ErrorCode::invalid_argument);
     check_lengths(chain);
 }
@@ -160,7 +227,7 @@ TEST_CASE("bones: the surface bends at the joint, and comes back to the bit") {
     arm.deformer.solve();
     arm.deformer.apply_to(bent);
     for (const Index v : arm.deformer.handle(arm.bones.handles[1]).region.vertices()) {
-        CHECK((bent.position(v) - chain.transform(1)(arm.mesh.position(v))).norm() < 1e-9);
+        CHECK((bent.position(v) - chain.transforms()[1](arm.mesh.position(v))).norm() < 1e-9);
     }
     CHECK(bounds(bent).max.x() > 1.5);
     CHECK(volume(bent) > 0.8 * volume(arm.mesh));
@@ -184,6 +251,60 @@ TEST_CASE("bones: the chain is that of the handles, whoever moves them") {
     CHECK((chain_of(arm.deformer, arm.bones).joints()[2] - Vec3(0, 2.5, 0)).norm() < 1e-12);
     arm.deformer.remove_handle(arm.bones.handles[1]);
     CHECK(error_of([&] { chain_of(arm.deformer, arm.bones); }).code() == ErrorCode::handle_removed);
+}
+
+TEST_CASE("bones: the deformer keeps its chains, in snapshots and through a rebase") {
+    Arm arm;
+    CHECK(bones_of(arm.deformer) == std::vector<Bones>{arm.bones});
+    const DeformSnapshot before = arm.deformer.snapshot();
+    BoneChain chain = chain_of(arm.deformer, arm.bones);
+    chain.turn(1, Vec3::UnitZ(), 0.8);
+    set_bones(arm.deformer, arm.bones, chain);
+    arm.deformer.solve();
+    arm.deformer.rebase();
+    const Bones& now = bones_with(arm.deformer, arm.bones.handles[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK((now.joints[i] - chain.joints()[i]).norm() < 1e-12);
+        CHECK((chain_of(arm.deformer, now).joints()[i] - now.joints[i]).norm() < 1e-12);
+    }
+    remove_bones(arm.deformer, now);
+    CHECK(bones_of(arm.deformer).empty());
+    CHECK(arm.deformer.handles().size() == 1);
+    CHECK(error_of([&] { bones_with(arm.deformer, arm.bones.handles[0]); }).code() ==
+          ErrorCode::handle_removed);
+    arm.deformer.restore(before);
+    CHECK(bones_of(arm.deformer) == std::vector<Bones>{arm.bones});
+    // One handle less, and the others are no chain.
+    arm.deformer.remove_handle(arm.bones.handles[1]);
+    CHECK(bones_of(arm.deformer).empty());
+    CHECK(arm.deformer.handles().size() == 2);
+}
+
+TEST_CASE("bones: joints outside a surface that has an inside are named") {
+    const Mesh bar = make_bar({.across = 4, .along = 20});
+    Mesh inside_out = bar;
+    flip(inside_out);
+    const auto laid = [](const Mesh& mesh, std::vector<Vec3> joints) {
+        const Error error = error_of([&] {
+            bone_regions(mesh, Region::all(mesh.shared_topology()), {.joints = std::move(joints)});
+        });
+        CHECK(error.code() == ErrorCode::invalid_argument);
+        return std::string(error.what());
+    };
+    for (const Mesh* mesh : {&bar, static_cast<const Mesh*>(&inside_out)}) {
+        CHECK(laid(*mesh, {{0, -2, 0}, {2, 0, 0}, {0, 2, 0}}).find("joint 2") != std::string::npos);
+        CHECK(laid(*mesh, {{0, -2, 0}, {0, 0, 0}, {0, 9, 0}}).find("joint 3") != std::string::npos);
+        CHECK(laid(*mesh, {{2, -2, 0}, {2, 2, 0}}).find("joint 1") != std::string::npos);
+        // The ends may stick out.
+        CHECK(bone_regions(*mesh, Region::all(mesh->shared_topology()),
+                           {.joints = {{0, -2.6, 0}, {0, 0, 0}, {0, 2.6, 0}}})
+                  .size() == 2);
+    }
+    // A sheet has no inside.
+    const Mesh sheet = make_grid({.segments = {20, 20}});
+    CHECK(bone_regions(sheet, Region::all(sheet.shared_topology()),
+                       {.joints = {{-0.4, 0.1, 0}, {0, 0.1, 0}, {0.4, 0.1, 0}}})
+              .size() == 2);
 }
 
 TEST_CASE("bones: they hold what they see, and say which bone sees nothing") {
