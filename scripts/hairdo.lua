@@ -252,7 +252,7 @@ function hairdo.ring(scalp, tail)
     local tie = { azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
     local center, normal = scalp:at(tie), scalp:normal_at(tie)
     local size = scalp:scale()
-    local ring = lissom.shapes.torus{ radius = tail.radius * 0.95 * size, tube_radius = 0.0045 * size }
+    local ring = lissom.shapes.torus{ radius = tail.radius * 0.95 * size, tube_radius = 0.0034 * size }
     -- From +y to the normal.
     local axis = { normal[3], 0, -normal[1] }
     local angle = math.deg(math.acos(math.max(-1, math.min(1, normal[2]))))

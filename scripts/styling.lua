@@ -206,14 +206,14 @@ function styling.long(head, o, routes, parting)
     return style
 end
 
---- Cuts hair along a hem, as hair:cut takes it, in locks that end within `ragged` metres of it; more than
+--- Cuts hair along a hem, as hair:cut takes it, in locks that end within `ragged` metres of it; nearly
 --- half of the hairs are layers that end higher, so that the hair thins out. Guides stay the longest of their
 --- locks.
 function styling.ragged_hem(hair, scalp, hem, ragged, seed)
     local higher = {}
     for i, place in ipairs(hem) do higher[i] = { place[1], place[2] + 2.5 * ragged } end
     local function follows(strand) return hair:root(strand).guide ~= hair:root(strand).id end
-    local function is_layer(strand) return follows(strand) and styling.chance(strand, seed) < 0.6 end
+    local function is_layer(strand) return follows(strand) and styling.chance(strand, seed) < 0.45 end
     hair:cut{ hem = hem, scalp = scalp, guide_jitter = 0.7 * ragged, seed = seed }
     hair:cut{ hem = hem, scalp = scalp, jitter = 0.4 * ragged, guide_jitter = 0.7 * ragged, seed = seed,
         mask = function(strand) return follows(strand) and 1 or 0 end }
@@ -231,7 +231,7 @@ function styling.loose_waves(hair, scalp, options)
         local sway = 0.22 * math.sin(48 * p[1] + 0.6) + 0.16 * math.sin(20 * p[1] + 70 * p[2] - 40 * p[3])
         return sway - hair:root(strand).arc / options.wavelength
     end
-    local all = { begin = begin, start = 0.01, ramp = 0.14, variation = 0.08, depth = 0.8,
+    local all = { begin = begin, start = 0.06, ramp = 0.16, variation = 0.08, depth = 0.8,
         keep_length = false }
     for key, value in pairs(options) do all[key] = value end
     return hair:wave(all)
@@ -328,9 +328,10 @@ function styling.finish(hair, width, noise, all)
     return styling.thin_out(styling.set_width(hair, width, all))
 end
 
---- Thins hair out towards the tips: a tip as thick as the rest makes a hem of steps.
+--- Thins hair out over its last 45 millimetres, or two thirds: tips as thick as the rest make a hem of steps.
 function styling.thin_out(hair)
-    return hair:taper{ tip = 0.12, start = 0.35 }
+    local length = #hair > 0 and hair:stats().mean_length or 0
+    return hair:taper{ tip = 0.12, start = math.max(0.35, 1 - 0.045 / math.max(length, 0.001)) }
 end
 
 -- Edges of hair, the options of hair:soften_edge: of hair that is tied or combed back, whose edge is seen,

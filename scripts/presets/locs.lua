@@ -32,15 +32,15 @@ return styling.preset(..., {
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.17, -0.32, -0.19 }, max = { 0.17, 0.17, 0.17 } } })
         styling.streams(style, routes)
-        local hair = style:grow{ count = o.count, seed = v.seed, length = v.length, layer = 0.02,
-            clearance = 0.005, lift = 0.35, variation = 0.15 }
+        local hair = style:grow{ count = o.count, seed = v.seed, length = v.length, layer = 0.015,
+            clearance = 0.004, lift = 0.2, variation = 0.15 }
         hair:resample{ step = 0.005 }:smooth{ iterations = 4 }:guides{ count = v.locs }
         local function is_guide(strand) return hair:root(strand).guide == hair:root(strand).id end
         hair:frizz{ mask = is_guide, amplitude = 0.004, wavelength = 0.07, flyaways = 0 }
         hair:gather{ ramp = 0.012, spread = 0.4 * v.radius }
         hair:cull{ mask = styling.over_face(scalp, hair), locks = true }
         hair:twist{ wavelength = 0.016, ramp = 0.01 }
-        hair:frizz{ amplitude = v.matted, wavelength = 0.006, flyaways = 0.04, flyaway = 4, shape = 0.3,
+        hair:frizz{ amplitude = v.matted, wavelength = 0.006, flyaways = 0.015, flyaway = 3, shape = 0.3,
             seed = v.seed }
         hair:push_out{ head = style, clearance = 0.002 }
         styling.thin_out(styling.set_width(hair, 0.00025))

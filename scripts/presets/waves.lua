@@ -15,7 +15,7 @@ return styling.preset(..., {
             help = "of a wave" },
         wavelength = { type = "number", default = 0.095, min = 0.03, max = 0.2, unit = "metres",
             help = "of a wave" },
-        locks = { type = "integer", default = 90, min = 20, max = 600, help = "number of locks" },
+        locks = { type = "integer", default = 150, min = 20, max = 600, help = "number of locks" },
     },
     make = function(head, v, o)
         local scalp = o.scalp
@@ -25,11 +25,11 @@ return styling.preset(..., {
         hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
         hair:cull{ mask = styling.over_face(scalp, hair) }
         hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
-        hair:gather{ guides = v.locks, factor = 0.35, ramp = 0.15, spread = 0.006 }
+        hair:gather{ guides = v.locks, factor = 0.45, ramp = 0.2, spread = 0.006 }
         styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, seed = v.seed })
-        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.016, v.seed)
-        hair:clump{ clumps = 700, strength = 0.5 }
-        styling.finish(hair, 0.00026, 0.002):push_out{ head = style, clearance = 0.003 }
+        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.012, v.seed)
+        hair:clump{ clumps = 900, strength = 0.5, shape = 2, tip_spread = 0.0015 }
+        styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.003 }
         return style, hair, { unit = scalp:unit() }
     end,
 })
