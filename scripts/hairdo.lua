@@ -277,7 +277,7 @@ function hairdo.camera(style, hair, side)
     local turn = ({ front = 0, left = 90, back = 180, right = -90 })[side] or 35
     local rise = side == "three-quarter" and 12 or 4
     local fov = 24
-    local distance = 0.8 * radius / math.sin(math.rad(fov / 2))
+    local distance = 0.84 * radius / math.sin(math.rad(fov / 2))
     local front, left, up = scalp:front(), scalp:left(), scalp:up()
     local eye = {}
     for k = 1, 3 do

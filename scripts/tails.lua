@@ -39,7 +39,7 @@ end
 function tails.way_over_shoulder(scalp, tie, away)
     local side = tie.azimuth < 0 and -1 or 1
     local points = styling.route(scalp, { { side * tie.azimuth, tie.elevation, 1000 * tie.lift },
-        { side * tie.azimuth, tie.elevation, 1000 * tie.lift + 10 }, { "at", 72, -52, -40 },
+        { side * tie.azimuth, tie.elevation, 1000 * tie.lift + 5 }, { "at", 72, -52, -40 },
         { "at", 76, -85, -18 }, { "at", 76, -120, 16 }, { "at", 74, -160, 48 },
         { "at", 72, -210, 62 }, { "at", 70, -270, 66 }, { "at", 70, -420, 66 } }, side)
     for i = 2, #points do

@@ -47,7 +47,8 @@ return styling.preset(..., {
         hair:gather{ guides = 140, factor = 0.4, ramp = 0.2, spread = 0.006 }
         styling.loose_waves(hair, scalp, { radius = v.wave, wavelength = 0.095, seed = v.seed })
         styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.012, v.seed)
-        hair:clump{ clumps = 900, strength = 0.5, shape = 2, tip_spread = 0.0015 }:push_out{ head = low, clearance = 0.003 }
+        hair:clump{ clumps = 900, strength = 0.5, shape = 2, tip_spread = 0.0015 }
+        hair:push_out{ head = low, clearance = 0.003 }
         local style, up, tie = ponytail.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },
             { scalp = scalp, resolution = o.resolution, hard = true },

@@ -46,7 +46,7 @@ return styling.preset(..., {
         fin(style, v.width)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local low = math.abs(azimuth) > 90 and 1 - styling.smooth(-40, 70, elevation) or 0
-            return v.height * (1 - 0.53 * low)
+            return v.height * (1 - 0.78 * low)
         end)
         local inside = styling.by_angles(scalp, function(_, _, p)
             return 1 - styling.smooth(half, half + 0.003, math.abs(p[1]))
@@ -56,7 +56,7 @@ return styling.preset(..., {
         top:resample{ count = 16 }
         top:clump{ clumps = v.spikes, strength = 0.75, shape = 1.3, tip_spread = 0.003 }
         top:clump{ clumps = 600, strength = 0.3 }:push_out{ head = style }
-        styling.finish(top, 0.00026, 0.004, o.count):set_colors{ color = { 0.30, 0.03, 0.05 } }
+        styling.finish(top, 0.00026, 0.0015, o.count):set_colors{ color = { 0.30, 0.03, 0.05 } }
         return style, hair:append(top), { unit = scalp:unit() }
     end,
 })

@@ -20,7 +20,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style, ties = tails.both_sides(head, o, { azimuth = 132, elevation = v.height, lift = 0.017,
+        local style, ties = tails.both_sides(head, o, { azimuth = 132, elevation = v.height, lift = 0.013,
             radius = 0.017, droop = 0.03, length = 0.12, tail_length = 0.04 })
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.4, layer = 0.007,
             clearance = 0.002 }
