@@ -1,6 +1,7 @@
 --- One picture of all presets of hairstyles on the generated head.
 --
 --     lissom run scripts/contact_sheet.lua --out examples/hair
+local hairdo = require "hairdo"
 local lissom = require "lissom"
 local styling = require "styling"
 
@@ -47,7 +48,9 @@ for _, one in ipairs(presets) do
     if params.only == "" or params.only == name then
         local head = lissom.shapes.head{ vertices = 12000 }
         local style, hair, look = grown(name, head)
-        hair:set_colors{ color = styling.linear(styling.colors[color] or look.color or "#8a6a4a") }
+        -- Hair of several colours keeps them.
+        local shown = styling.colors[color] or look.color
+        if shown then hair:set_colors{ color = styling.linear(shown) } end
         heads[#heads + 1], strands[#strands + 1] = turned(style, hair, turn), hair
         captions[#captions + 1] = (name:gsub("_", " "))
         if not camera then
@@ -60,7 +63,8 @@ for _, one in ipairs(presets) do
 end
 local rows = math.ceil(#heads / params.columns)
 lissom.render{
-    meshes = heads, color = "#c9a48c", strands = strands, columns = math.min(params.columns, #heads),
-    camera = camera, captions = captions, background = "#c8ccd2", file = params.out .. "/presets.png",
+    meshes = heads, color = hairdo.skin, strands = strands, columns = math.min(params.columns, #heads),
+    camera = camera, captions = captions, background = "#c8ccd2", supersample = 2,
+    file = params.out .. "/presets.png",
     size = { params.size * math.min(params.columns, #heads), math.floor(1.15 * params.size) * rows },
 }
