@@ -62,7 +62,10 @@ PartTrial tight_trial(const PartTrials& trials, const Context& context) {
         std::optional<PartTrial> smooth;
         const bool edges = mapped.options.thesis || mapped.options.loop == PasteBoundary::mesh;
         if (!edges) smooth = mapped.along_smooth_inner(context);
-        return smooth ? *std::move(smooth) : mapped.along_inner(context);
+        PartTrial inner = smooth ? *std::move(smooth) : mapped.along_inner(context);
+        if (edges) return inner;
+        std::optional<PartTrial> foot = mapped.along_foot(inner, context);
+        return foot ? *std::move(foot) : std::move(inner);
     });
 }
 

@@ -1,10 +1,12 @@
 #include "kernel/merge/paste/part_trial.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "kernel/core/error.h"
 #include "kernel/merge/blend/overlap_transition.h"
+#include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/paste/part/draped_part.h"
 #include "kernel/merge/paste/placement/plane_line.h"
 
@@ -16,6 +18,8 @@ constexpr int kPartRefinements = 20;
 constexpr int kSettlingRounds = 12;
 // Least part of the way that a boundary slides if all of it does not serve.
 constexpr double kMinSlide = 0.25;
+// A part stands out where it is this high over its boundary, in radii of that.
+constexpr double kFoot = 0.02;
 
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
 BoundaryDeformOptions paste_deformation(const ThesisFormulas* thesis) {
@@ -23,6 +27,17 @@ BoundaryDeformOptions paste_deformation(const ThesisFormulas* thesis) {
     BoundaryDeformOptions options = thesis->deform;
     options.size = SizeField::harmonic;
     return options;
+}
+
+// The greatest value of each vertex and its neighbours.
+std::vector<double> max_around(const Topology& topology, const std::vector<double>& values) {
+    std::vector<double> result = values;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        for (const Index n : topology.neighbors(v)) {
+            result[at(v)] = std::max(result[at(v)], values[at(n)]);
+        }
+    }
+    return result;
 }
 
 }  // namespace
@@ -167,6 +182,54 @@ std::optional<PartTrial> PartTrials::along_smooth_inner(const Context& context) 
     std::optional<PartTrial> trial = along(MovingParts::Boundary::inner_line, *line, context);
     if (trial) trial->tight = true;
     return trial;
+}
+
+// The boundary of a part of the part of a trial, where that is placed.
+std::vector<RingPoint> PartTrials::rim_within(const PastePart& part, const PartTrial& whole) const {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    const double count = static_cast<double>(whole.rim.size());
+    for (const RingPoint& point : whole.rim) {
+        from += point.position / count;
+        to += point.image.position / count;
+    }
+    std::vector<RingPoint> rim;
+    for (const Index v : part.loop) {
+        RingPoint point;
+        point.position = part.mesh.position(v);
+        for (const ElementMap::Source& source : part.map.vertices[v]) {
+            point.normal += source.weight * surface.map().source_normals()[at(source.element)];
+        }
+        point.normal.normalize();
+        const Vec3 way = whole.similarity.rotation * (point.position - from);
+        point.image = surface.map().nearest(to + whole.scale * way);
+        rim.push_back(point);
+    }
+    return rim;
+}
+
+std::optional<PartTrial> PartTrials::along_foot(const PartTrial& inner,
+                                                const Context& context) const {
+    if (!surface.map().has_nearest()) return std::nullopt;
+    const PastePart& part = inner.part();
+    const auto make = [&] {
+        // With a ring of the surface around, which smoothing of the seam may bend.
+        std::vector<double> height = max_around(part.mesh.topology(), heights_over_boundary(part));
+        const double foot = kFoot * loop_radius(part.mesh, part.loop);
+        for (double& h : height) h -= foot;
+        return part_above(part, std::move(height), context);
+    };
+    try {
+        PartTrial trial = inner;
+        trial.moving = parts.inside(MovingParts::Boundary::foot, regions.inner, make,
+                                    paste_deformation(options.thesis), context);
+        trial.rim = rim_within(trial.part(), inner);
+        trial.plain = move(trial, context);
+        if (settles) settle(trial, context);
+        return trial;
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+        return std::nullopt;
+    }
 }
 
 PartTrial PartTrials::along_inner(const Context& context) const {

@@ -72,11 +72,15 @@ struct PartTrials {
     /// The feature alone, inside its own outline, and the same without teeth.
     PartTrial along_inner(const Context& context) const;
     std::optional<PartTrial> along_smooth_inner(const Context& context) const;
+    /// Where a part that is inside the feature's outline begins to stand out, without the flat
+    /// surface around. Returns nothing if that is no closed line.
+    std::optional<PartTrial> along_foot(const PartTrial& inner, const Context& context) const;
 
   private:
     PasteDistortion drape(PartTrial& trial, const Context& context) const;
     bool slide(PartTrial& trial, double part, const Context& context) const;
     void settle(PartTrial& trial, const Context& context) const;
+    std::vector<RingPoint> rim_within(const PastePart& part, const PartTrial& whole) const;
     PasteLoop fitted(std::span<const Index> loop) const;
     PartTrial trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                        const Context& context) const;

@@ -70,6 +70,16 @@ Vec3 loop_axis(const PastePart& part) {
     return axis_of(loop, mean_point(loop));
 }
 
+std::vector<double> heights_over_boundary(const PastePart& part) {
+    PasteSimilarity same;
+    const Drape drape(part, loop_points(part), same, 1.0);
+    std::vector<double> heights;
+    for (const Vec3& p : part.mesh.positions()) {
+        heights.push_back(drape.tip() < 0.0 ? -drape.height_at(p) : drape.height_at(p));
+    }
+    return heights;
+}
+
 Drape::Drape(const PastePart& part, std::span<const Vec3> images, const PasteSimilarity& similarity,
              double scale, Ground ground)
     : part_(part), similarity_(similarity), scale_(scale) {

@@ -37,6 +37,9 @@ class Drape {
     double radius() const { return radius_; }
     /// Returns the longest way that the boundary is drawn.
     double depth() const;
+    /// Returns the height of a point of the source over the boundary; that of the tip.
+    double height_at(const Vec3& point) const { return foot_at(stood(point)).height; }
+    double tip() const { return tip_; }
     /// The place of a point of the source before it is drawn.
     Vec3 stood(const Vec3& point) const;
     /// Moves the part; its loop comes to lie on the images.
@@ -72,6 +75,10 @@ class Drape {
     std::vector<double> length_;
     Ground ground_;
 };
+
+/// Returns the height of each vertex of a part over its boundary, harmonically continued, along the
+/// axis: above 0 on the side that stands out most.
+std::vector<double> heights_over_boundary(const PastePart& part);
 
 /// Returns the direction of unit length that a part's boundary runs around counter-clockwise.
 Vec3 loop_axis(const PastePart& part);

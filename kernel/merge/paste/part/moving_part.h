@@ -51,7 +51,7 @@ class MovingPart {
 /// vertices.
 class MovingParts {
   public:
-    enum class Boundary { line, loop, outline, outline_line, inner, inner_line };
+    enum class Boundary { line, loop, outline, outline_line, inner, inner_line, foot };
     using Make = std::function<PastePart()>;
 
     /// Returns the part inside a boundary, from `make` if it is not the last one of its kind.
@@ -68,7 +68,7 @@ class MovingParts {
         std::vector<Vec2> line;
         std::shared_ptr<MovingPart> part;
     };
-    std::array<Kept, 6> kept_;
+    std::array<Kept, 7> kept_;
 };
 
 }  // namespace lissom

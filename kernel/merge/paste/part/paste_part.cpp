@@ -145,6 +145,15 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, const Pas
     return {std::move(parts.kept.mesh), map, parts.lines.front().kept.vertices()};
 }
 
+PastePart part_above(const PastePart& part, std::vector<double> height, const Context& context) {
+    const auto [least, most] = std::minmax_element(height.begin(), height.end());
+    if (!(*least < 0.0 && *most > 0.0)) refuse_line();
+    Cut parts = cut(part.mesh, CutContour{std::move(height)}, {CutLoops::all, kSlide}, context);
+    if (parts.lines.size() != 1 || !parts.lines.front().kept.closed()) refuse_line();
+    return {std::move(parts.kept.mesh), composed(parts.kept.map, part.map),
+            parts.lines.front().kept.vertices()};
+}
+
 std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface) {
     std::vector<RingPoint> rim;
     for (const Index v : part.loop) {

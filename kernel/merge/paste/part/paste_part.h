@@ -38,6 +38,10 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span
 PastePart part_inside(const Mesh& source, const PasteRegions& regions, const PasteChart& chart,
                       std::span<const Vec2> line, const Context& context);
 
+/// Returns the part inside the line along which `height`, one value a vertex, passes 0: without the
+/// surface around its foot. Errors: boundary_conflict if that is not one closed line; cancelled.
+PastePart part_above(const PastePart& part, std::vector<double> height, const Context& context);
+
 /// Returns the points of a part's loop with images. Errors: boundary_conflict if one has none.
 std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface);
 

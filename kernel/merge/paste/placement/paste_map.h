@@ -101,6 +101,8 @@ class PasteMap {
     PlanarMap planar(const PastePlacement& placement, double angle) const;
     /// One image a place of the source's chart.
     std::vector<ImagePoint> images(const PlanarMap& plane) const;
+    /// Whether nearest points can be asked for.
+    bool has_nearest() const { return chart_tree_.has_value(); }
     /// The point of the target's region nearest to a point of space.
     ImagePoint nearest(const Vec3& point) const;
     /// Of the points at which a line meets the target's region and that look along it, the one

@@ -148,11 +148,35 @@ TEST_CASE("paste: a part on an edge or a corner of a box keeps its shape and sta
             const PasteResult made = paste.merge();
             CHECK(made.report.draped);
             CHECK(made.merged.mesh.topology().is_closed());
-            CHECK(off_cube(seam_points(made)) < 4e-3);
+            // The seam lies beside the wall of the bump, into which smoothing draws it a little.
+            CHECK(off_cube(seam_points(made)) < 0.03 * 0.35);
             CHECK(height_over_cube(made.merged.mesh) > 0.75 * 0.35 * 0.7);
             CHECK_FALSE(tells(made.merged.report, MergeFault::bite));
             CHECK_FALSE(tells(made.merged.report, MergeFault::crossings));
             CHECK_FALSE(tells(made.merged.report, MergeFault::folds));
+        }
+    }
+}
+
+TEST_CASE("paste: edges under the flat surface around a part stay, as far as it lies beside them") {
+    const Mesh bump = bump_on_sheet();
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    constexpr double kScale = 0.45, kFootRadius = 0.55 * kScale;
+    for (const Mesh& cube : {cube_of(1), cube_of(9), make_box({{2, 2, 2}, {7, 2, 1}})}) {
+        for (const double beside : {0.05, 0.1, 0.15}) {
+            CAPTURE(cube.face_count());
+            CAPTURE(beside);
+            Paste paste(bump, cube, region, bump_of(bump), std::nullopt,
+                        {.at = {1.0 - kFootRadius - beside, 1.2, 0.15},
+                         .up = Vec3::UnitZ(),
+                         .scale = kScale});
+            paste.optimize();
+            const PasteResult made = paste.merge({.find_intersections = true});
+            // The foot is a face wider than the bump, and the seam is smoothed a face beyond that.
+            const double limit = beside < 0.1 ? 0.04 * kScale : 1e-6;
+            CHECK(edges_off(made.merged.mesh, Vec3::Zero(), 0.0) < limit);
+            CHECK(made.merged.report.ok);
+            CHECK(height_over_cube(made.merged.mesh) > 0.9 * 0.7 * kScale);
         }
     }
 }
