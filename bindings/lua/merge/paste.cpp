@@ -276,7 +276,8 @@ std::vector<Parameter> merge_parameters() {
     all.push_back(boolean("draft",
                           "For a part that is being dragged: the same place and boundary, but the "
                           "part is not refined, nor does its boundary slide, the seam is sewn and "
-                          "no more, whatever `smooth`, `collar` and `intersections` say, and the "
+                          "no more unless faces turn over at it, whatever `smooth`, `collar` and "
+                          "`intersections` say, and the "
                           "report has no provenance.")
                       .defaults(false));
     return all;

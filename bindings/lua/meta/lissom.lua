@@ -2082,7 +2082,7 @@ function Paste:optimize(options) end
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
 ---@field mend? boolean If the verdict finds fault with the surface around the seam, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
----@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
+---@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more unless faces turn over at it, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
 ---@param options? lissom.Paste.MergeOptions

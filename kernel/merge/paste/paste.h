@@ -76,9 +76,10 @@ struct PasteMergeOptions {
     bool mend = false;
     /// A draft for dragging, many times a second: placement and boundary are those of a merge that
     /// is no draft, and the result is watertight, but the part is not refined, nor does its
-    /// boundary slide, and the seam is sewn and no more. Nothing is smoothed, made anew or flipped
-    /// beside it, regardless of `smooth`, `collar` and `find_intersections`; a boundary at which
-    /// faces turn over stays; and the origin of elements is not returned.
+    /// boundary slide, and the seam is sewn and no more, unless faces turn over at it: then it is
+    /// smoothed, and the part beside it differs from that of `Paste::draft`. Otherwise nothing is
+    /// smoothed, made anew or flipped there, regardless of `smooth`, `collar` and
+    /// `find_intersections`; and the origin of elements is not returned.
     bool draft = false;
 };
 

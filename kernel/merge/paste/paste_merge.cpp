@@ -42,27 +42,15 @@ std::vector<Index> kept_creases(const OpenedTarget& opened) {
     return creased_vertices(opened.mesh, vertices_near(opened.mesh, {&opened.loop, 1}));
 }
 
-Sewn sewn_with(const LaidPart& laid, const PasteMergeOptions& options, bool collar,
+Sewn sewn_with(const LaidPart& laid, const PasteMergeOptions& options, bool finished, bool collar,
                const Context& context) {
     SewOptions how;
-    how.smooth = options.draft ? 0 : options.smooth;
+    how.smooth = finished ? options.smooth : 0;
     if (how.smooth > 0) how.firm = kept_creases(laid.opened);
     how.collar = collar;
-    how.flip = !options.draft;
+    how.flip = finished;
     const LoopPair pairs[] = {laid.pair};
     return sew(laid.opened.mesh, laid.trial.moved.mesh, pairs, how, context);
-}
-
-Sewn sewn_well(const LaidPart& laid, const PasteMergeOptions& options, const Context& context) {
-    const auto angles = [](const Sewn& sewn) {
-        return sewn.report.after.max_dihedral + sewn.report.after.max_near;
-    };
-    Sewn sewn = sewn_with(laid, options, options.collar && !options.draft, context);
-    if (!(sewn.report.collar_added > 0 && sewn.report.after.max_dihedral > kSteepSeam)) {
-        return sewn;
-    }
-    Sewn plain = sewn_with(laid, options, false, context);
-    return angles(plain) <= kPlainBetter * angles(sewn) ? std::move(plain) : std::move(sewn);
 }
 
 double turns(const Sewn& sewn) {
@@ -71,6 +59,43 @@ double turns(const Sewn& sewn) {
 // Whether a seam is so steep that its faces turn over.
 bool folds(const Sewn& sewn) {
     return turns(sewn) > kFoldedSeam;
+}
+
+// A draft whose faces turn over beside its seam, smoothed there as far as that helps.
+Sewn relaxed_draft(const LaidPart& laid, Sewn draft, const Context& context) {
+    const std::vector<Index> firm = became_of(draft, kept_creases(laid.opened));
+    const std::vector<Vec3> rest =
+        places_on_second(draft.map, laid.trial.part().mesh, laid.opened.mesh.vertex_count());
+    for (Index rings = 1; rings <= kRelaxRings && folds(draft); rings *= 2) {
+        Sewn relaxed = draft;
+        if (!relax_faults(relaxed, {{}, firm, rest}, rings, context)) break;
+        if (turns(relaxed) < turns(draft)) draft = std::move(relaxed);
+    }
+    return draft;
+}
+
+// As it is, or finished and smoothed if its faces turn over.
+Sewn sewn_draft(const LaidPart& laid, const PasteMergeOptions& options, const Context& context) {
+    Sewn draft = sewn_with(laid, options, false, false, context);
+    for (const bool collar : {false, true}) {
+        if (!folds(draft)) return draft;
+        Sewn finished = sewn_with(laid, options, true, collar, context);
+        if (turns(finished) < turns(draft)) draft = std::move(finished);
+    }
+    return folds(draft) ? relaxed_draft(laid, std::move(draft), context) : draft;
+}
+
+Sewn sewn_well(const LaidPart& laid, const PasteMergeOptions& options, const Context& context) {
+    if (options.draft) return sewn_draft(laid, options, context);
+    const auto angles = [](const Sewn& sewn) {
+        return sewn.report.after.max_dihedral + sewn.report.after.max_near;
+    };
+    Sewn sewn = sewn_with(laid, options, true, options.collar, context);
+    if (!(sewn.report.collar_added > 0 && sewn.report.after.max_dihedral > kSteepSeam)) {
+        return sewn;
+    }
+    Sewn plain = sewn_with(laid, options, true, false, context);
+    return angles(plain) <= kPlainBetter * angles(sewn) ? std::move(plain) : std::move(sewn);
 }
 
 // Ratio of two bites, each length times depth, below which the lesser is worth another boundary.

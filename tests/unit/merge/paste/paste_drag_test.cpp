@@ -135,7 +135,9 @@ TEST_CASE("paste: drags over coarse and technical shapes refuse no frame and tur
         for (int frame = 0; frame < kDragFrames; ++frame) {
             CAPTURE(frame);
             paste.slide(place(frame));
-            check_frame(paste.merge({.draft = true}), drag.scale);
+            const PasteResult draft = paste.merge({.draft = true});
+            check_frame(draft, drag.scale);
+            CHECK(greatest_turn(draft.merged.mesh) < kTurnedOver);
             if (frame % kFramesToMerge != 0) continue;
             const PasteResult made = paste.merge();
             check_frame(made, drag.scale);
