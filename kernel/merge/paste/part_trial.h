@@ -72,8 +72,8 @@ struct PartTrials {
     /// The feature alone, inside its own outline, and the same without teeth.
     PartTrial along_inner(const Context& context) const;
     std::optional<PartTrial> along_smooth_inner(const Context& context) const;
-    /// Where a part that is inside the feature's outline begins to stand out, without the flat
-    /// surface around. Returns nothing if that is no closed line.
+    /// The same without the flat surface around its foot, but for a ring of faces. Returns nothing
+    /// if the foot has no closed line around.
     std::optional<PartTrial> along_foot(const PartTrial& inner, const Context& context) const;
 
   private:
