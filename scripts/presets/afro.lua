@@ -41,11 +41,11 @@ return styling.preset(..., {
             variation = 0.35, points_per_turn = 9, keep_length = false, seed = v.seed }
         hair:frizz{ amplitude = v.frizz, wavelength = 0.02, shape = 0.6, keep_length = false,
             flyaways = 0.02, flyaway = 1.6 }
-        hair:cut{ ellipsoid = { center = { 0, 0.02, -0.015 }, radii = { 0.041 + h, 0.06 + h, 0.062 + h } },
+        hair:cut{ ellipsoid = { center = { 0, 0.04, -0.015 }, radii = { 0.043 + h, 0.052 + h, 0.062 + h } },
             scalp = scalp, jitter = v.ragged }
         hair:push_out{ head = style }
         styling.thin_out(styling.set_width(hair, 0.0002))
-        return style, hair, { color = "#2a1d16", clump_tone = 0.15, primary = 0.04, secondary = 0.3,
+        return style, hair, { color = "#33241b", clump_tone = 0.15, primary = 0.07, secondary = 0.3,
             scalp_tint = 0.9, unit = scalp:unit() }
     end,
 })

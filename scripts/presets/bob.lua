@@ -37,13 +37,13 @@ return styling.preset(..., {
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.27, layer = 0.01, ramp = 0.05,
             density = full }
-        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }:guides{ count = 300 }
+        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }:guides{ count = 700 }
         local hem = {}
         for azimuth = 32, 52, 2 do
             hem[#hem + 1] = { azimuth, v.fringe - (v.fringe + v.length) * styling.smooth(34, 50, azimuth) }
         end
         styling.ragged_hem(hair, scalp, hem, v.ragged, v.seed)
-        hair:clump{ strength = 0.5, shape = 2.5, tip_spread = 0.002, seed = v.seed }
+        hair:clump{ strength = 0.4, shape = 2.5, tip_spread = 0.002, seed = v.seed }
         if v.curl > 0 then hair:roll{ radius = 0.03, start = 0.8, factor = v.curl } end
         hair:push_out{ head = style, clearance = 0.001 }
         return style, styling.finish(hair, 0.0003, 0.001), { unit = scalp:unit() }
