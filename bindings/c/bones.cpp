@@ -1,9 +1,10 @@
 // Bones of deformers.
-#include <string>
+#include <cmath>
 
 #include "bindings/c/data.h"
 #include "kernel/deform/bones/bone_chain.h"
 #include "kernel/deform/bones/bones.h"
+#include "kernel/deform/bones/framed_curve.h"
 #include "kernel/deform/deformer.h"
 
 namespace lissom::c {
@@ -20,6 +21,7 @@ BonesOptions bones_options(const lissom_context& context, const lissom_input* jo
     options.joints = read_points(joints, context.space, "joints");
     if (taken.limits.count > 0) options.limits = read_numbers(&taken.limits, 1, "limits");
     options.share = taken.share;
+    options.radius = taken.radius;
     return options;
 }
 
@@ -106,6 +108,34 @@ lissom_status lissom_deformer_move_bones(lissom_context* context, lissom_deforme
     });
 }
 
+lissom_status lissom_deformer_follow_with_bones(lissom_context* context, lissom_deformer deformer,
+                                                int32_t bones, const lissom_input* points,
+                                                bool stretch, double twist) {
+    return run(context, [&] {
+        Deformer& own = boned_deformer(*context, deformer);
+        const FramedCurve curve(read_points(points, context->space, "points"));
+        follow(own, bones_with(own, HandleId{bones}), curve,
+               {stretch, context->space.mirrors() ? -twist : twist});
+    });
+}
+
+lissom_status lissom_deformer_carry_handle(lissom_context* context, lissom_deformer deformer,
+                                           int32_t handle, const lissom_input* points, double start,
+                                           double share, double twist) {
+    return run(context, [&] {
+        Deformer& own = boned_deformer(*context, deformer);
+        const FramedCurve curve(read_points(points, context->space, "points"));
+        require(std::isfinite(start) && std::isfinite(share), "a place on the curve is not finite",
+                ErrorCode::not_finite);
+        CarryOptions options;
+        options.from = start < 0.0 ? curve.nearest(own.handle(HandleId{handle}).center)
+                                   : start * curve.length();
+        options.along = share * curve.length();
+        options.twist = context->space.mirrors() ? -twist : twist;
+        follow(own, HandleId{handle}, curve, options);
+    });
+}
+
 lissom_status lissom_deformer_reset_bones(lissom_context* context, lissom_deformer deformer,
                                           int32_t bones) {
     return run(context, [&] {
@@ -126,7 +156,7 @@ lissom_status lissom_deformer_read_joints(lissom_context* context, lissom_deform
                                           int32_t bones, const lissom_output* joints) {
     return run(context, [&] {
         const Deformer& own = boned_deformer(*context, deformer);
-        const auto places = chain_of(own, bones_with(own, HandleId{bones})).joints();
+        const auto places = joints_of(own, bones_with(own, HandleId{bones}));
         write_points(joints, places.size(), "joints",
                      [&](std::size_t i) { return context->space.to_host(places[i]); });
     });

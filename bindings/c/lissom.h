@@ -1044,6 +1044,9 @@ typedef struct lissom_bones_options {
     /// Part of each bone's length, around its middle, along which it holds the surface; above 0, at
     /// most 1.
     double share;
+    /// Above 0 a bone holds the vertices within this distance of it, and joints may lie anywhere:
+    /// for lines along a surface, such as brows and lips. In units of length.
+    double radius;
 } lissom_bones_options;
 
 LISSOM_API lissom_bones_options lissom_default_bones_options(void);
@@ -1080,6 +1083,24 @@ LISSOM_API lissom_status lissom_deformer_reach_with_bones(lissom_context* contex
 LISSOM_API lissom_status lissom_deformer_move_bones(lissom_context* context,
                                                     lissom_deformer deformer, int32_t bones,
                                                     const double base[3]);
+/// Lays a chain along a smooth curve through points (triples): spline IK. The base lies at its
+/// start, and bones turn least from one to the next, and by `twist` radians about the curve from
+/// the base to the tip. Lengths and limits stay, and behind its end bones go on straight; with
+/// `stretch` joints keep their shares of the length, bones stretch along themselves, and no limit
+/// holds. Errors: INVALID_ARGUMENT if fewer than two points differ, or a stretched chain would fold
+/// onto itself; NOT_FINITE.
+LISSOM_API lissom_status lissom_deformer_follow_with_bones(lissom_context* context,
+                                                           lissom_deformer deformer, int32_t bones,
+                                                           const lissom_input* points, bool stretch,
+                                                           double twist);
+/// Carries a handle, of bones or not, along a smooth curve through points (triples), turning with
+/// it and by `twist` radians about it. `start` and `share` are its places at rest and now, as
+/// shares of the curve's length; `start` below 0 is the nearest to its middle. Replaces its former
+/// motion. Errors: INVALID_ARGUMENT if fewer than two points differ; NOT_FINITE; HANDLE_REMOVED.
+LISSOM_API lissom_status lissom_deformer_carry_handle(lissom_context* context,
+                                                      lissom_deformer deformer, int32_t handle,
+                                                      const lissom_input* points, double start,
+                                                      double share, double twist);
 /// Puts all bones of a chain back to rest.
 LISSOM_API lissom_status lissom_deformer_reset_bones(lissom_context* context,
                                                      lissom_deformer deformer, int32_t bones);

@@ -254,6 +254,8 @@ class Work(unittest.TestCase):
         self.assertLess(deformer.reach_with_bones(bones, (1, 1, 0), (0, 0, 1)), 1e-8)
         self.assertEqual(deformer.joint_count(bones), 3)
         self.assertAlmostEqual(deformer.joints(bones).tolist()[2][0], 1, places=8)
+        deformer.follow_with_bones(bones, [[0, -1.5, 0], [1, 0, 0], [2, 0, 0]], False, 0.0)
+        self.assertAlmostEqual(deformer.joints(bones).tolist()[0][1], -1.5, places=8)
         deformer.solve()
         deformer.remove_bones(bones)
         with self.assertRaises(lissom.Error) as raised:

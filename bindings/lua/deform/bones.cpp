@@ -1,5 +1,6 @@
 // lissom.Bones: chains of bones in a deformer, turned by hand or towards a point.
 #include "kernel/deform/bones/bones.h"
+#include "kernel/deform/bones/framed_curve.h"
 
 #include <cstdio>
 #include <memory>
@@ -30,7 +31,7 @@ int add_bones_of(Call& call) {
     const std::span<const Vec3> joints = call.points("joints");
     const std::span<const double> limits =
         call.has("limits") ? call.numbers("limits") : std::span<const double>{};
-    const double share = call.number("share");
+    const double share = call.number("share"), radius = call.number("radius");
     const auto result = call.create<BonesObject>();
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
@@ -38,6 +39,7 @@ int add_bones_of(Call& call) {
         options.joints.assign(joints.begin(), joints.end());
         for (const double limit : limits) options.limits.push_back(limit * kDegree);
         options.share = share;
+        options.radius = radius;
         call.reserve(edit, handle_bytes(at(edit->mesh->mesh.vertex_count())));
         const Bones made = add_bones(deformer, edit->mesh->mesh, options, call.context());
         result.set(std::make_shared<BonesObject>(BonesObject{edit.share(), made.handles.front()}));
@@ -102,6 +104,17 @@ int reach_with_bones(Call& call) {
     return done ? call.push(off) : call.fail();
 }
 
+int follow_with_bones(Call& call) {
+    const auto self = call.self<BonesObject>();
+    const std::span<const Vec3> points = call.points("points");
+    BonesFollowOptions options;
+    options.stretch = call.boolean("stretch");
+    options.twist = call.number("twist") * kDegree;
+    const bool done = call.attempt_quick(
+        [&] { follow(self->edit->deformer(), self->bones(), FramedCurve(points), options); });
+    return done ? call.push_argument() : call.fail();
+}
+
 int reset_bones(Call& call) {
     const auto self = call.self<BonesObject>();
     const bool done = call.attempt_quick([&] {
@@ -114,8 +127,8 @@ int reset_bones(Call& call) {
 int bone_joints(Call& call) {
     auto& joints = call.hold<std::vector<Vec3>>();
     const auto self = call.self<BonesObject>();
-    const bool done = call.attempt_quick(
-        [&] { joints = chain_of(self->edit->deformer(), self->bones()).joints(); });
+    const bool done =
+        call.attempt_quick([&] { joints = joints_of(self->edit->deformer(), self->bones()); });
     if (!done) return call.fail();
     lua_createtable(call.lua(), count_of(joints), 0);
     for (Index i = 0; i < count_of(joints); ++i) {
@@ -211,6 +224,24 @@ std::vector<Function> bones_methods() {
              .errors = kBoneErrors,
              .example = kArm + "assert(arm:reach({ 1, 1.5, 0 }, { axis = \"z\" }) < 1e-4)\n"
                                "deformer:solve()"},
+            {.name = "follow",
+             .body = follow_with_bones,
+             .summary =
+                 "Lays the chain along a smooth curve through points (spline IK): the base at its "
+                 "start, and bones turned least from one to the next. Lengths and limits stay; "
+                 "behind its end bones go on straight.",
+             .arguments = {points("points", "Points of the curve, such as polyline:points().")},
+             .options = {boolean("stretch",
+                                 "Joints keep their shares of the length, and bones stretch along "
+                                 "themselves to span them (a wire); no limit holds then.")
+                             .defaults(false),
+                         number("twist", "Turn about the curve from the base to the tip.")
+                             .in("degrees")
+                             .defaults(0)},
+             .results = kSelfBones,
+             .errors = kBoneErrors,
+             .example = kArm + "arm:follow{ { 0, -1.5, 0 }, { 0.3, 0.5, 0 }, { 1.5, 1.8, 0 } }\n"
+                               "deformer:solve()"},
             {.name = "move",
              .body = move_bones,
              .summary = "Puts the base at a point; all bones go along as they are.",
@@ -266,7 +297,14 @@ Function add_bones_method() {
                                "surface.")
                             .defaults(BonesOptions().share)
                             .above(0)
-                            .between(0, 1)},
+                            .between(0, 1),
+                        number("radius",
+                               "Above 0 a bone holds the vertices within this distance of it, and "
+                               "joints may lie anywhere: for lines along a surface, such as brows "
+                               "and lips.")
+                            .in("mesh units")
+                            .defaults(BonesOptions().radius)
+                            .at_least(0)},
             .results = {{"lissom.Bones", "bones", "Turn them, then solve."}},
             .effect = Effect::changes,
             .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite,

@@ -3,6 +3,8 @@
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/deform/deform_texts.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/bones/bones.h"
+#include "kernel/deform/bones/framed_curve.h"
 #include "kernel/deform/handle_changes.h"
 #include "kernel/deform/rotation/winding.h"
 
@@ -92,6 +94,25 @@ int set_handle_matrix(Call& call) {
         const Vec3 near =
             has_turn ? Vec3(turn[0], turn[1], turn[2]) : deformer.pose(handle->id).turn;
         deformer.set_transform(handle->id, map, Vec3::Zero(), near);
+    });
+    return done ? call.push_argument() : call.fail();
+}
+
+int follow_with_handle(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    const std::span<const Vec3> points = call.points("points");
+    const double share = call.number("share"), twist = call.number("twist") / kDegreesOfTurn;
+    const bool has_from = call.has("from");
+    const double from = has_from ? call.number("from") : 0.0;
+    const bool done = call.attempt_quick([&] {
+        Deformer& deformer = handle->edit->deformer();
+        const FramedCurve curve(points);
+        CarryOptions options;
+        options.from =
+            has_from ? from * curve.length() : curve.nearest(deformer.handle(handle->id).center);
+        options.along = share * curve.length();
+        options.twist = twist;
+        follow(deformer, handle->id, curve, options);
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -270,6 +291,24 @@ top:rotate{ axis = { 1, 0, 0 }, angle = 10, about = { 0, 0, 0 } })"},
              .effect = Effect::replaces,
              .errors = kHandleErrors,
              .example = kBar + "top:set_matrix(top:matrix())"},
+            {.name = "follow",
+             .body = follow_with_handle,
+             .summary =
+                 "Carries the handle along a smooth curve through points, turning with it and not "
+                 "about it. Replaces its former motion.",
+             .arguments = {points("points", "Points of the curve, such as polyline:points()."),
+                           number("share",
+                                  "Place on the curve, as a share of its length; beyond its ends "
+                                  "it goes on straight.")},
+             .options =
+                 {number("from", "Place that the handle has at rest.")
+                      .optional("the nearest to its middle"),
+                  number("twist", "Turn about the curve at that place.").in("degrees").defaults(0)},
+             .results = self,
+             .effect = Effect::replaces,
+             .errors = kHandleErrors,
+             .example = kBar + "top:follow({ { 0, 2.5, 0 }, { 0.5, 3, 0 }, { 1.5, 3, 0 } }, 0.7)\n"
+                               "deformer:solve()"},
             {.name = "reset",
              .body = reset_handle,
              .summary = "The handle goes back to its initial place.",

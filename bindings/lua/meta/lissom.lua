@@ -1819,6 +1819,7 @@ function Deformer:set_pose(pose) end
 ---@field joints lissom.Vector[] Joints at rest within the surface, from the base to the tip; two at least.
 ---@field limits? number[] For each bone the greatest angle from its rest direction, as seen from the bone before it, in degrees. Default: no limits.
 ---@field share? number Part of each bone's length along which it holds the surface. Default: 0.3.
+---@field radius? number Above 0 a bone holds the vertices within this distance of it, and joints may lie anywhere: for lines along a surface, such as brows and lips. In mesh units. Default: 0.
 
 ---Adds a chain of bones. Each holds the surface around its middle as a handle, and the solver finds how the rest follows: there are no weights to paint.
 ---@param options lissom.Deformer.Add_bonesOptions
@@ -1901,6 +1902,17 @@ function Handle:set(options) end
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set_matrix(matrix) end
 
+---@class lissom.Handle.FollowOptions
+---@field from? number Place that the handle has at rest. Default: the nearest to its middle.
+---@field twist? number Turn about the curve at that place. In degrees. Default: 0.
+
+---Carries the handle along a smooth curve through points, turning with it and not about it. Replaces its former motion.
+---@param points lissom.Vector[] Points of the curve, such as polyline:points().
+---@param share number Place on the curve, as a share of its length; beyond its ends it goes on straight.
+---@param options? lissom.Handle.FollowOptions
+---@return lissom.Handle handle # The handle itself.
+function Handle:follow(points, share, options) end
+
 ---The handle goes back to its initial place.
 ---@return lissom.Handle handle # The handle itself.
 function Handle:reset() end
@@ -1958,6 +1970,16 @@ function Bones:turn(bone, axis, angle) end
 ---@return number distance # The distance from the tip that is left.
 ---@overload fun(self: lissom.Bones, x: number, y: number, z: number, options?: lissom.Bones.ReachOptions): number
 function Bones:reach(target, options) end
+
+---@class lissom.Bones.FollowOptions
+---@field stretch? boolean Joints keep their shares of the length, and bones stretch along themselves to span them (a wire); no limit holds then. Default: false.
+---@field twist? number Turn about the curve from the base to the tip. In degrees. Default: 0.
+
+---Lays the chain along a smooth curve through points (spline IK): the base at its start, and bones turned least from one to the next. Lengths and limits stay; behind its end bones go on straight.
+---@param points lissom.Vector[] Points of the curve, such as polyline:points().
+---@param options? lissom.Bones.FollowOptions
+---@return lissom.Bones bones # The bones themselves.
+function Bones:follow(points, options) end
 
 ---Puts the base at a point; all bones go along as they are.
 ---@param base lissom.Vector The place of the first joint.

@@ -10,6 +10,8 @@
 
 namespace lissom {
 
+class FramedCurve;
+
 /// Options of inverse kinematics.
 struct ReachOptions {
     /// Axis about which a stretched chain bends if the target lies along it; if absent, one square
@@ -58,6 +60,12 @@ class BoneChain {
     /// straight. Linear in the number of bones. Returns the distance that is left. Errors:
     /// not_finite, also for targets beyond 1e100; invalid_argument for options out of range.
     double reach(const Vec3& target, const ReachOptions& options = {});
+
+    /// Lays the chain along a curve: the base at its start, each joint where the curve leaves the
+    /// reach of the joint before, bones turned least from one to the next, and by `twist` radians
+    /// more from the base to the tip. Lengths and limits stay; behind the end of the curve bones go
+    /// on straight. Errors: not_finite.
+    void follow(const FramedCurve& curve, double twist = 0.0);
 
   private:
     /// Returns whether it had to turn the bone back.

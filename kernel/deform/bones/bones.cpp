@@ -11,6 +11,7 @@
 #include "kernel/deform/constraint_edits.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/rotation/polar.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
@@ -54,7 +55,7 @@ class BoneHolds {
         for (const Index v : region.vertices()) {
             if (v % 256 == 0) context.checkpoint();
             const BoneSide side = side_of(options.joints, rest.position(v));
-            if (std::abs(side.along) > 1.0 || !sees(side.foot, rest.position(v))) continue;
+            if (std::abs(side.along) > 1.0 || !is_beside(side.foot, rest.position(v))) continue;
             beside_.emplace_back(v, side);
         }
     }
@@ -62,6 +63,7 @@ class BoneHolds {
     // A surface with an inside, which is told by its closedness or by one of the joints, has all of
     // them there.
     void require_inside() const {
+        if (options_.radius > 0.0) return;
         const std::vector<Vec3>& joints = options_.joints;
         std::vector<std::size_t> outside;
         for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -89,7 +91,9 @@ class BoneHolds {
         }
         require(held.size() >= kLeastHeld,
                 "bone " + std::to_string(bone + 1) +
-                    " is seen by no part of the surface: lay its joints within the limb");
+                    (options_.radius > 0.0
+                         ? " has no part of the surface within its radius"
+                         : " is seen by no part of the surface: lay its joints within the limb"));
         return held;
     }
 
@@ -110,6 +114,11 @@ class BoneHolds {
             }
         }
         return 2 * within >= all;
+    }
+
+    bool is_beside(const Vec3& foot, const Vec3& vertex) const {
+        if (options_.radius > 0.0) return (vertex - foot).norm() <= options_.radius;
+        return sees(foot, vertex);
     }
 
     bool sees(const Vec3& foot, const Vec3& vertex) const {
@@ -135,6 +144,7 @@ std::vector<Region> bone_regions(const Mesh& rest, const Region& region,
     const BoneChain chain(options.joints, options.limits);
     require(options.share > 0.0 && options.share <= 1.0,
             "the share of a bone is above 0 and at most 1");
+    require(is_length(options.radius), "the radius of bones is 0 or more");
     const BoneHolds holds(rest, region, options, context);
     holds.require_inside();
     std::vector<Region> regions;
@@ -187,11 +197,20 @@ BoneChain chain_of(const Deformer& deformer, const Bones& bones) {
     Vec3 base = bones.joints.front();
     for (std::size_t i = 0; i < bones.handles.size(); ++i) {
         const HandlePose& pose = deformer.pose(bones.handles[i]);
-        rotations.push_back(Eigen::Quaterniond(pose.transform.linear).normalized());
+        rotations.emplace_back(nearest_rotation(pose.transform.linear));
         if (i == 0) base = pose.transform(bones.joints.front());
     }
     chain.set(rotations, base);
     return chain;
+}
+
+std::vector<Vec3> joints_of(const Deformer& deformer, const Bones& bones) {
+    std::vector<Vec3> joints;
+    for (std::size_t i = 0; i < bones.handles.size(); ++i) {
+        joints.push_back(deformer.pose(bones.handles[i]).transform(bones.joints[i]));
+    }
+    joints.push_back(deformer.pose(bones.handles.back()).transform(bones.joints.back()));
+    return joints;
 }
 
 void set_bones(Deformer& deformer, const Bones& bones, const BoneChain& chain) {

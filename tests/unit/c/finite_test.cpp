@@ -223,13 +223,28 @@ std::vector<Given> region_cases() {
 
 std::vector<Given> deform_cases() {
     return {
-        {"lissom_deformer_add_bones", 12,
+        {"lissom_deformer_follow_with_bones", 7,
          [](World& world, int i, double bad) {
-             const auto n = with_bad<12>({0, -2, 0, 0, 0.1, 0, 0, 2, 0, 1, 1, 0.3}, i, bad);
+             const auto n = with_bad<7>({0, -2, 0, 1, 2, 0, 0.5}, i, bad);
+             const lissom_input points = triples(n.data(), 2);
+             return lissom_deformer_follow_with_bones(world, world.boned, world.bones, &points,
+                                                      false, n[6]);
+         }},
+        {"lissom_deformer_carry_handle", 9,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<9>({0, -2, 0, 1, 2, 0, 0.1, 0.5, 0.2}, i, bad);
+             const lissom_input points = triples(n.data(), 2);
+             return lissom_deformer_carry_handle(world, world.boned, world.bones, &points, n[6],
+                                                 n[7], n[8]);
+         }},
+        {"lissom_deformer_add_bones", 13,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<13>({0, -2, 0, 0, 0.1, 0, 0, 2, 0, 1, 1, 0.3, 0}, i, bad);
              const lissom_input joints = triples(n.data(), 3);
              auto options = lissom_default_bones_options();
              options.limits = {n.data() + 9, 2, 0, LISSOM_FLOAT64};
              options.share = n[11];
+             options.radius = n[12];
              std::int32_t bones = -1;
              return lissom_deformer_add_bones(world, world.boned, world.bar, &joints, &options,
                                               &bones);

@@ -562,6 +562,16 @@ void add_bone_cases(std::vector<MemoryCase>& all) {
         return lissom_deformer_reach_with_bones(world, world.boned, world.bones, kTarget, kAxis,
                                                 &distance);
     });
+    static const double kCurve[] = {0, -2, 0, 1, 2, 0};
+    static const lissom_input kCurvePoints{kCurve, 2, 0, LISSOM_FLOAT64};
+    add("lissom_deformer_follow_with_bones", [](World& world) {
+        return lissom_deformer_follow_with_bones(world, world.boned, world.bones, &kCurvePoints,
+                                                 false, 0.5);
+    });
+    add("lissom_deformer_carry_handle", [](World& world) {
+        return lissom_deformer_carry_handle(world, world.boned, world.bones, &kCurvePoints, -1.0,
+                                            0.5, 0.0);
+    });
     add("lissom_deformer_move_bones", [](World& world) {
         return lissom_deformer_move_bones(world, world.boned, world.bones, kTarget);
     });
