@@ -48,6 +48,8 @@ class MotionField {
         }
         return sum;
     }
+    /// The origin; the fourth number is 0.
+    const Eigen::Array4f& origin() const { return origin_; }
     /// Returns the place to which a point goes with a motion.
     Eigen::Array4f moved(const Eigen::Array4f& point, const Node& motion) const {
         const Eigen::Array4f local = point - origin_;

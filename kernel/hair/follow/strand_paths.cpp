@@ -15,10 +15,9 @@ namespace {
 constexpr float kKnotStep = 0.025f, kGroupRadius = 0.008f;
 constexpr std::size_t kMostKnots = 64, kMostInGroup = 32;
 constexpr Index kPathGrain = 256;
+constexpr std::size_t kLanes = kPathLanes;
 // Cells of the order of roots, along each axis.
 constexpr double kOrderCells = 1024.0;
-// Parts of segments' lengths that tips may have at least before all segments shrink alike.
-constexpr float kLeastTip = 0.25f, kMostTip = 4.0f;
 
 std::uint32_t with_gaps(std::uint32_t x) {
     x = (x | x << 16) & 0x030000ffu;
@@ -116,6 +115,49 @@ void StrandPaths::divide() {
             add_group(i);
         }
     }
+    for (Group& group : groups_) {
+        group.first_row = rows_.size();
+        group.first_block = blocks_.size();
+        if (!is_whole(group.first)) continue;
+        for (std::size_t i = 0; i < group.count; i += kLanes) {
+            add_block(group.first + i, std::min(kLanes, group.count - i), group);
+        }
+    }
+}
+
+// Adds rows of points, the lanes without a strand as the first.
+void StrandPaths::add_block(std::size_t first, std::size_t count, const Group& group) {
+    PathStrands block;
+    block.count = static_cast<int>(count);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t place = first + (lane < count ? lane : 0);
+        block.points[lane] = static_cast<int>(arcs(place).size());
+        block.total[lane] = arcs(place).back();
+        block.made[lane] = made_[place];
+        block.rows = std::max(block.rows, block.points[lane]);
+    }
+    blocks_.push_back(block);
+    for (int k = 0; k < block.rows; ++k) {
+        PathRow row;
+        PathRange range{std::uint16_t(group.knots - 1), 0, false};
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::size_t place = first + (lane < count ? lane : 0);
+            const StrandView strand = rest(place);
+            const Index point = std::min<Index>(k, index_of(strand.cols()) - 1);
+            row.x[lane] = strand(0, point);
+            row.y[lane] = strand(1, point);
+            row.z[lane] = strand(2, point);
+            const float arc = row.arc[lane] = arcs(place)[at(point)];
+            const auto last = static_cast<float>(group.knots - 1);
+            const float knot = std::min(arc * group.per_metre, last);
+            range.low = std::min(range.low, static_cast<std::uint16_t>(knot));
+            range.high = std::max(range.high, static_cast<std::uint16_t>(std::ceil(knot)));
+            range.in_ramp = range.in_ramp || arc < ramp_;
+        }
+        range.in_ramp = range.in_ramp && roots_[first].vertices[0] != kNoIndex;
+        rows_.push_back(row);
+        ranges_.push_back(range);
+    }
 }
 
 void StrandPaths::add_group(std::size_t first) {
@@ -169,12 +211,14 @@ Eigen::Matrix3f StrandPaths::turn_of(std::size_t place, const HeadMotion& head) 
     return (head.scale() * turn.toRotationMatrix()).cast<float>();
 }
 
-// `around`: the place to which the motion around the strand takes its root.
 Eigen::Vector3f StrandPaths::moved_root(std::size_t place, const Eigen::Matrix3f& turn,
-                                        const HeadMotion& head,
-                                        const Eigen::Array4f& around) const {
+                                        const HeadMotion& head, const MotionField& field,
+                                        const Room& room) const {
     const RootPlace& root = roots_[place];
-    if (root.vertices[0] == kNoIndex) return around.head<3>().matrix();
+    if (root.vertices[0] == kNoIndex) {
+        const float* const p = points_.data() + 3 * first_[place];
+        return field.moved({p[0], p[1], p[2], 0.0f}, room.knots[0]).head<3>().matrix();
+    }
     Vec3 moved = (turn * root.offset).cast<double>();
     for (int c = 0; c < 3; ++c) {
         moved += double{root.weights[c]} * head.places()[at(root.vertices[at(c)])];
@@ -185,87 +229,62 @@ Eigen::Vector3f StrandPaths::moved_root(std::size_t place, const Eigen::Matrix3f
 void StrandPaths::move(Index g, const HeadMotion& head, const MotionField& field,
                        std::span<float> points, Room& room) const {
     const Group& group = groups_[at(g)];
-    const bool whole = is_whole(group.first), placed = rest(group.first).col(0).allFinite();
     make_room(room.knots, group.knots);
-    for (std::size_t j = 0; j < group.knots && placed; ++j) {
+    for (std::size_t j = 0; j < group.knots && rest(group.first).col(0).allFinite(); ++j) {
         room.knots[j] = field.motion_at(knots_[group.first_knot + j].data());
     }
     const Eigen::Matrix3f turn = turn_of(group.first, head);
+    if (is_whole(group.first)) return move_whole(group, turn, head, field, points, room);
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-        const StrandView old = rest(i);
-        const Eigen::Array4f first(old(0, 0), old(1, 0), old(2, 0), 0.0f);
-        const Eigen::Vector3f root = moved_root(i, turn, head, field.moved(first, room.knots[0]));
-        float* const made = points.data() + made_[i];
-        if (whole) {
-            move_strand(i, group, turn, root, field, static_cast<float>(head.scale()), made, room);
-        } else {
-            Eigen::Map<Eigen::Matrix3Xf> shifted(made, 3, old.cols());
-            shifted = old;
-            if (placed) shifted.colwise() += root - old.col(0);
-        }
+        move_broken(i, turn, head, field, points, room);
     }
 }
 
-// Segments change in parts that grow with the square of the place along the strand, so that it has
-// its length and hair near the head stays where the head takes it.
-void StrandPaths::move_strand(std::size_t place, const Group& group, const Eigen::Matrix3f& turn,
-                              const Eigen::Vector3f& root, const MotionField& field, float scale,
-                              float* made, Room& room) const {
-    const StrandView rest = this->rest(place);
-    const auto lengths = arcs(place);
-    const std::size_t count = lengths.size();
-    const float total = lengths.back(), per_total = 1.0f / total, per_ramp = 1.0f / ramp_;
-    const bool has_root = roots_[place].vertices[0] != kNoIndex;
-    make_room(room.steps, count);
-    make_room(room.sizes, count);
-    const Eigen::Array4f first(rest(0, 0), rest(1, 0), rest(2, 0), 0.0f);
-    const Eigen::Array4f start(root[0], root[1], root[2], 0.0f);
-    Eigen::Array4f before = start;
-    float have = 0.0f, weighted = 0.0f;
-    for (std::size_t k = 1; k < count; ++k) {
-        const float* const p = rest.data() + 3 * k;
-        const float knot = lengths[k] * group.per_metre;
-        const auto j = std::min(static_cast<std::size_t>(knot), group.knots - 2);
-        const float u = std::min(knot - static_cast<float>(j), 1.0f);
-        const MotionField::Node& low = room.knots[j];
-        const MotionField::Node motion = low + u * (room.knots[j + 1] - low);
-        const Eigen::Array4f point(p[0], p[1], p[2], 0.0f);
-        Eigen::Array4f target = field.moved(point, motion);
-        if (has_root && lengths[k] < ramp_) {
-            const float v = lengths[k] * per_ramp, w = 1.0f - v * v * (3.0f - 2.0f * v);
-            const Eigen::Array4f along = point - first;
-            Eigen::Array4f with_root = start;
-            for (int c = 0; c < 3; ++c) {
-                with_root.head<3>() += along[c] * turn.col(c).array();
-            }
-            target += w * (with_root - target);
+void StrandPaths::move_whole(const Group& group, const Eigen::Matrix3f& turn,
+                             const HeadMotion& head, const MotionField& field,
+                             std::span<float> points, Room& room) const {
+    PathBlock block;
+    block.knots = room.knots.front().data();
+    block.per_metre = group.per_metre;
+    block.last_knot = static_cast<float>(group.knots - 1);
+    block.per_ramp = 1.0f / ramp_;
+    block.scale = static_cast<float>(head.scale());
+    std::copy_n(field.origin().data(), 3, block.origin);
+    std::copy_n(turn.data(), 9, block.turn);
+    block.made = points.data();
+    block.strands = &blocks_[group.first_block];
+    block.rows = &rows_[group.first_row];
+    block.ranges = &ranges_[group.first_row];
+    for (std::size_t i = 0; i < group.count; i += kLanes) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::size_t place = group.first + std::min(i + lane, group.count - 1);
+            const Eigen::Vector3f root = moved_root(place, turn, head, field, room);
+            for (int c = 0; c < 3; ++c) block.roots[c][lane] = root[c];
         }
-        const Eigen::Array4f step = target - before;
-        before = target;
-        const float size = std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
-        const float t = lengths[k] * per_total;
-        room.steps[k] = step;
-        have += size;
-        weighted += size * t * t;
+        make_room(room.steps, at(block.strands->rows));
+        move_block(block, room.steps.data());
+        block.rows += block.strands->rows;
+        block.ranges += block.strands->rows;
+        ++block.strands;
     }
-    const float want = scale * total;
-    const float change = weighted > 0.0f ? (want - have) / weighted : 0.0f;
-    const bool is_even = !(1.0f + change > kLeastTip && 1.0f + change < kMostTip);
-    const float base = is_even && have > 0.0f ? want / have : 1.0f;
-    const float slope = is_even ? 0.0f : change * per_total * per_total;
-    Eigen::Array4f point = start;
-    for (int c = 0; c < 3; ++c) made[c] = point[c];
-    for (std::size_t k = 1; k < count; ++k) {
-        point += (base + slope * lengths[k] * lengths[k]) * room.steps[k];
-        float* const out = made + 3 * k;
-        out[0] = point[0], out[1] = point[1], out[2] = point[2];
-    }
+}
+
+void StrandPaths::move_broken(std::size_t place, const Eigen::Matrix3f& turn,
+                              const HeadMotion& head, const MotionField& field,
+                              std::span<float> points, const Room& room) const {
+    const StrandView old = rest(place);
+    Eigen::Map<Eigen::Matrix3Xf> shifted(points.data() + made_[place], 3, old.cols());
+    shifted = old;
+    if (!old.col(0).allFinite()) return;
+    shifted.colwise() += moved_root(place, turn, head, field, room) - old.col(0);
 }
 
 std::size_t StrandPaths::memory_bytes() const {
     return roots_.size() * (sizeof(RootPlace) + sizeof(Index) + 2 * sizeof(std::size_t)) +
            (points_.size() + arcs_.size()) * sizeof(float) + groups_.size() * sizeof(Group) +
-           knots_.size() * sizeof(Eigen::Vector3f);
+           knots_.size() * sizeof(Eigen::Vector3f) +
+           rows_.size() * (sizeof(PathRow) + sizeof(PathRange)) +
+           blocks_.size() * sizeof(PathStrands);
 }
 
 }  // namespace lissom

@@ -11,6 +11,7 @@
 #include "kernel/core/index.h"
 #include "kernel/hair/follow/head_motion.h"
 #include "kernel/hair/follow/motion_field.h"
+#include "kernel/hair/follow/path_loops.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/measure/triangulation.h"
 
@@ -46,8 +47,7 @@ class StrandPaths {
     /// Room for one thread.
     struct Room {
         std::vector<MotionField::Node, Eigen::aligned_allocator<MotionField::Node>> knots;
-        std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> steps;
-        std::vector<float> sizes;
+        std::vector<PathRow> steps;
     };
     /// Writes the points of a group's strands: with the length at rest times the factor of `head`.
     /// Strands without length, or that are not finite, keep their shape, and their root follows.
@@ -61,6 +61,8 @@ class StrandPaths {
         std::size_t first = 0, count = 0, first_knot = 0, knots = 0;
         /// Knots in one metre along the strand.
         float per_metre = 0.0f;
+        /// Its blocks of kPathLanes strands, and their rows; none if it is not whole.
+        std::size_t first_block = 0, first_row = 0;
     };
 
     /// Place of a root on the head: vertices, kNoIndex for none, and weights; and the offset from
@@ -83,10 +85,13 @@ class StrandPaths {
     Eigen::Vector3f at_arc(std::size_t place, float arc) const;
     Eigen::Matrix3f turn_of(std::size_t place, const HeadMotion& head) const;
     Eigen::Vector3f moved_root(std::size_t place, const Eigen::Matrix3f& turn,
-                               const HeadMotion& head, const Eigen::Array4f& around) const;
-    void move_strand(std::size_t place, const Group& group, const Eigen::Matrix3f& turn,
-                     const Eigen::Vector3f& root, const MotionField& field, float scale,
-                     float* made, Room& room) const;
+                               const HeadMotion& head, const MotionField& field,
+                               const Room& room) const;
+    void add_block(std::size_t first, std::size_t count, const Group& group);
+    void move_whole(const Group& group, const Eigen::Matrix3f& turn, const HeadMotion& head,
+                    const MotionField& field, std::span<float> points, Room& room) const;
+    void move_broken(std::size_t place, const Eigen::Matrix3f& turn, const HeadMotion& head,
+                     const MotionField& field, std::span<float> points, const Room& room) const;
 
     float ramp_;
     /// The strand at each place, and where its points begin: here, and in all strands.
@@ -96,6 +101,9 @@ class StrandPaths {
     std::vector<RootPlace> roots_;
     std::vector<Group> groups_;
     std::vector<Eigen::Vector3f> knots_;
+    std::vector<PathStrands> blocks_;
+    std::vector<PathRow> rows_;
+    std::vector<PathRange> ranges_;
     MemoryCharge charge_;
 };
 

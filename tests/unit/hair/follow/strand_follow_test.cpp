@@ -129,6 +129,33 @@ TEST_CASE("follow: strands move, turn and grow with the whole head") {
     }
 }
 
+TEST_CASE(
+    "follow: neighbours may have different numbers of points, as blocks of them move together") {
+    const Strands hair = combed_hair(600);
+    // Every other point of some: they have their course.
+    std::vector<float> numbers;
+    std::vector<Index> offsets = {0};
+    for (Index s = 0; s < hair.size(); ++s) {
+        const StrandView strand = hair.strand(s);
+        const Index step = 1 + s % 3;
+        for (Index k = 0; k < index_of(strand.cols()); ++k) {
+            if (k % step != 0 && k + 1 < index_of(strand.cols())) continue;
+            for (int c = 0; c < 3; ++c) numbers.push_back(strand(c, k));
+        }
+        offsets.push_back(index_of(numbers.size() / 3));
+    }
+    Strands mixed(std::move(numbers), std::move(offsets));
+    mixed.set_roots(hair.roots());
+    const Affine map = some_similarity(1.2);
+    Strands expected = mixed;
+    transform(expected, map);
+    CHECK(farthest(followed(mixed, moved(small_head(), map)), expected) < 2e-6);
+    const Strands bent = followed(mixed, leaning(25, 0.0), {.collision = FollowCollision::none});
+    for (Index s = 0; s < mixed.size(); ++s) {
+        CHECK(std::abs(length_of(bent, s) / length_of(mixed, s) - 1.0) < 0.01);
+    }
+}
+
 TEST_CASE("follow: a similarity after a deformation gives the similarity of the strands") {
     const Strands hair = combed_hair(200);
     const Mesh bent = leaning(25, 0.12);
