@@ -278,6 +278,22 @@ do
         expect.error(function() lissom.bake_cards{ cards = cards, file = test.file("color.tiff") } end, "png")
     end)
 
+    test("hair in motion is written into the strands of its set alone, and groups are named", function()
+        local _, style, hair = bob(300)
+        local set = hair:guide_set{ count = 20 }
+        local dynamics = set:dynamics{ head = style }
+        local copy = hair:copy()
+        expect.equal(dynamics:step(0.1):strands{ into = copy }, copy)
+        local order = {}
+        for s = 1, #hair do order[s] = #hair + 1 - s end
+        local others = hair:select{ strands = order }
+        local unchanged = others:hash()
+        expect.error(function() dynamics:strands{ into = others } end, "other strands than the set")
+        expect.error(function() dynamics:strands{ into = hair:select{ first = 9 } } end, "made of 300")
+        expect.equal(others:hash(), unchanged)
+        expect.error(function() set:dynamics{ head = style, bound = { "brade" } } end, "no group 'brade'")
+    end)
+
     test("a cap needs a style, and budgets count", function()
         local _, style, hair = bob(300)
         expect.error(function() hair:cards{ cap = true } end, "style")

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/nearest.h"
 #include "kernel/core/rotation.h"
 
 namespace lissom {
@@ -61,7 +63,10 @@ std::vector<bool> bound_groups(const GuideSet& set, const std::vector<std::strin
     std::vector<bool> bound(set.group_names.size(), false);
     for (const std::string& name : names) {
         const auto found = std::find(set.group_names.begin(), set.group_names.end(), name);
-        require(found != set.group_names.end(), "the strands have no group '" + name + "'");
+        const std::vector<std::string_view> known(set.group_names.begin(), set.group_names.end());
+        require(found != set.group_names.end(),
+                "the strands have no group '" + name + "'" +
+                    (known.empty() ? "; they have no groups" : name_hint(name, known)));
         bound[static_cast<std::size_t>(found - set.group_names.begin())] = true;
     }
     return bound;

@@ -174,12 +174,28 @@ int dynamics_guides(Call& call) {
     });
 }
 
+// Strands of the set have its number, and the ids of its strands in their order.
+void require_same_strands(const Strands& strands, const GuideSet& set) {
+    require(strands.size() == count_of(set.guided),
+            "'into' has " + std::to_string(strands.size()) + " strands; the set was made of " +
+                std::to_string(set.guided.size()) + ": give those, or a copy of them");
+    Elements others{ElementKind::strand, 0, {}};
+    for (Index s = 0; s < strands.size(); ++s) {
+        if (strands.id(s) != set.guided[at(s)].id) others.add(s);
+    }
+    if (others.count == 0) return;
+    const std::string names = describe(others);
+    throw Error(ErrorCode::invalid_argument,
+                "'into' has other strands than the set was made of, by the ids of " + names +
+                    "; give those, or a copy of them",
+                std::move(others));
+}
+
 // Gives strands of the set new places, and leaves all else that they hold.
 void move_strands(Strands& strands, const HairDynamicsObject& moving, bool details,
                   const Context& context) {
     const GuideSet& set = moving.set->set;
-    require(strands.size() == count_of(set.guided),
-            "'into' has another number of strands than the set");
+    require_same_strands(strands, set);
     const std::vector<Eigen::Vector3f> curves = moving.content.curves();
     const auto points = rebuild_strands(set, {curves, details}, context);
     const auto is_even = [&](Index s) {
