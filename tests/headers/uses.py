@@ -5,7 +5,7 @@
 
 Finds the names of the standard library and of the kernel that a header writes, and the header that declares
 each; that must be among its own includes. Prints what is missing, and headers of the kernel that are included
-for no name. `--fix` adds what is missing; run clang-format afterwards. Reads text, so that it takes a second:
+for no name, and names in all sources that the library of emscripten lacks. `--fix` adds what is missing; run clang-format afterwards. Reads text, so that it takes a second:
 names that several headers declare, members and macros are not looked at.
 """
 import argparse
@@ -54,6 +54,11 @@ OWN = [r"^(?:class|struct|enum class) (\w+)(?: : \w+)?;", r"friend (?:class|stru
        r"^ +(?:class|struct|enum class|enum|using) (\w+)", r"typename (\w+)"]
 
 
+# Names of C++20 that the library of emscripten lacks, and the header that stands in for them.
+LACKING = re.compile(r"std::(bit_cast|make_unique_for_overwrite|make_shared_for_overwrite|format|jthread|atomic_ref)\b")
+STAND_IN = "kernel/core/numbers/bits.h"
+
+
 class Header:
     def __init__(self, name):
         self.name = name
@@ -99,6 +104,18 @@ def unused(header, headers):
     return found - EXPORTS.get(header.name, set())
 
 
+def lacking():
+    """Lines of sources for pages with a name that their library lacks."""
+    for room in ("kernel", "bindings/c", "bindings/lua", "bindings/wasm"):
+        for path in sorted((ROOT / room).rglob("*.[hc]*")):
+            name = path.relative_to(ROOT).as_posix()
+            if path.suffix not in (".h", ".cpp") or name == STAND_IN:
+                continue
+            for number, line in enumerate(path.read_text().split("\n"), 1):
+                for found in LACKING.findall(line.split("//")[0]):
+                    yield f"{name}:{number}: std::{found} is not in the library of emscripten ({STAND_IN})"
+
+
 def add(header, includes):
     path = ROOT / header.name
     lines = path.read_text().split("\n")
@@ -140,6 +157,9 @@ def main():
             print(f"{name}: uses no name of \"{include}\"")
         if options.fix and lacks:
             add(headers[name], lacks)
+    for finding in [] if options.headers else lacking():
+        findings += 1
+        print(finding)
     print(f"{findings} findings in {len(options.headers or headers)} headers", file=sys.stderr)
     return 1 if findings and not options.fix else 0
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <utility>
@@ -7,6 +6,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "kernel/core/large_pages.h"
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/sparse/elimination_tree.h"
 #include "kernel/solve/sparse/sparse_system_check.h"
 #include "kernel/solve/sparse/sparse_system_state.h"
@@ -33,8 +33,7 @@ void embed(const SymmetricMatrix& matrix, std::span<const Index> part,
            const std::vector<Index>& begin, const std::vector<Index>& row,
            const std::vector<Index>& row_of, std::vector<double>& value, const Changed& changed) {
     const auto write = [&](Index column, Index entry, double now) {
-        if (std::bit_cast<std::uint64_t>(value[at(entry)]) == std::bit_cast<std::uint64_t>(now))
-            return;
+        if (bits_as<std::uint64_t>(value[at(entry)]) == bits_as<std::uint64_t>(now)) return;
         value[at(entry)] = now;
         changed(column, row[at(entry)]);
     };
