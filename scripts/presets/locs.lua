@@ -5,15 +5,17 @@ local lissom = require "lissom"
 local styling = require "styling"
 
 local routes = {
-    { { 5, 60, 14 }, { 24, 50, 24 }, { 47, 32, 28 }, { 68, 8, 28 }, { "at", 92, -60, 18 },
+    { { 5, 60, 6 }, { 24, 50, 18 }, { 47, 32, 28 }, { 68, 8, 28 }, { "at", 92, -60, 18 },
         { "at", 94, -200, 10 } },
     { { 4, 44, 6 }, { 28, 42, 18 }, { 52, 28, 26 }, { 70, 6, 28 }, { "at", 94, -60, 16 },
         { "at", 96, -200, 8 } },
-    { { 30, 76, 9 }, { 66, 50, 22 }, { 84, 18, 30 }, { 90, 0, 30 }, { "at", 102, -60, -6 }, { "at", 104, -200,
+    { { 30, 78, 5 }, { 66, 50, 18 }, { 84, 18, 30 }, { 90, 0, 30 }, { "at", 102, -60, -6 }, { "at", 104, -200,
         -10 } },
     { { 120, 70, 9 }, { 116, 40, 22 }, { 118, 5, 30 }, { "at", 84, -60, -70 }, { "at", 86, -200, -80 } },
-    { { 150, 66, 8 }, { 150, 30, 22 }, { 150, -10, 30 }, { "at", 48, -70, -98 }, { "at", 48, -200, -108 } },
-    { { 180, 70, 8 }, { 180, 30, 22 }, { 180, -10, 30 }, { "at", 0, -80, -108 }, { "at", 0, -200, -116 } },
+    { { 150, 74, 5 }, { 150, 52, 14 }, { 150, 30, 20 }, { 150, -10, 30 }, { "at", 48, -70, -98 },
+        { "at", 48, -200, -108 } },
+    { { 180, 86, 4 }, { 180, 64, 12 }, { 180, 30, 20 }, { 180, -10, 30 }, { "at", 0, -80, -108 },
+        { "at", 0, -200, -116 } },
 }
 
 return styling.preset(..., {
@@ -22,9 +24,9 @@ return styling.preset(..., {
         length = { type = "number", default = 0.27, min = 0.08, max = 0.34, unit = "metres",
             help = "of a loc" },
         locs = { type = "integer", default = 170, min = 30, max = 600, help = "number of locs" },
-        radius = { type = "number", default = 0.0038, min = 0.0015, max = 0.008, unit = "metres",
+        radius = { type = "number", default = 0.0035, min = 0.0015, max = 0.008, unit = "metres",
             help = "of a loc" },
-        matted = { type = "number", default = 0.0005, min = 0, max = 0.002, unit = "metres",
+        matted = { type = "number", default = 0.0003, min = 0, max = 0.002, unit = "metres",
             help = "how far single hairs stand off" },
     },
     make = function(head, v, o)
@@ -32,7 +34,7 @@ return styling.preset(..., {
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.17, -0.32, -0.19 }, max = { 0.17, 0.17, 0.17 } } })
         styling.streams(style, routes)
-        local hair = style:grow{ count = o.count, seed = v.seed, length = v.length, layer = 0.015,
+        local hair = style:grow{ count = o.count, seed = v.seed, length = v.length, layer = 0.01,
             clearance = 0.004, lift = 0.2, variation = 0.15 }
         hair:resample{ step = 0.005 }:smooth{ iterations = 4 }:guides{ count = v.locs }
         local function is_guide(strand) return hair:root(strand).guide == hair:root(strand).id end
@@ -44,7 +46,7 @@ return styling.preset(..., {
             seed = v.seed }
         hair:push_out{ head = style, clearance = 0.002 }
         styling.thin_out(styling.set_width(hair, 0.00025))
-        return style, hair, { color = "#3a2a20", clump_tone = 0.2, primary = 0.05, secondary = 0.35,
-            unit = scalp:unit() }
+        return style, hair, { color = "#3a2a20", clump_tone = 0.35, clump_size = 0.014, primary = 0.07,
+            secondary = 0.35, unit = scalp:unit() }
     end,
 })
