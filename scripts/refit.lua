@@ -1,6 +1,7 @@
 --- Hair of others, as a scan, a simulation or another program made it, becomes a style that can be edited:
 -- its unit and place are found, guides are chosen, and streams along these make a field whose hair has the
 -- lengths of the given one. `refit.style` does all; the other functions are its steps.
+local curls = require "curls"
 local lissom = require "lissom"
 
 local refit = {}
@@ -337,7 +338,9 @@ end
 -- that mostly runs farther than this from all of them is left out. Returns a table: `style`; `grow`, the
 -- options of style:grow; `hair`, grown with them; `guides`; `motion`, as refit.place returns it; `height`,
 -- the median distance in metres of the roots from the head before they were put onto it; `angle`, the mean
--- error of directions in degrees; `length`, the mean error of lengths, as a part of them.
+-- error of directions in degrees; `length`, the mean error of lengths, as a part of them; `curl`, the curls
+-- as curls.measure finds them, or nothing: `hair` has them as an operator on top, and the style flows as the
+-- courses that they wind around. The option `curls` = false leaves curls in the courses.
 function refit.style(strands, head, options)
     options = options or {}
     local scalp = options.scalp or lissom.scalp(head)
@@ -349,6 +352,10 @@ function refit.style(strands, head, options)
     end
     without_short(strands, options.min_length or 0.002)
     if #strands < 3 then error("a style needs at least three strands longer than min_length", 2) end
+    -- Curls are an operator on top: the style flows as the courses that they wind around.
+    local curl = options.curls ~= false and curls.measure(strands) or nil
+    local given = strands
+    if curl then strands = curls.courses(strands, curl) end
     local roots, lengths = roots_and_lengths(strands)
     -- Few roots are so far from each other as on a scalp of 500 square centimetres.
     local reach = math.max(0.008, 1.5 * math.sqrt(0.05 / #roots))
@@ -370,9 +377,10 @@ function refit.style(strands, head, options)
         layer = 0, clearance = 0.001 }
     local hair = style:grow(grow)
     if #roots >= ENOUGH then refit.remove_strays(hair, strands, options.stray or 0.01) end
-    return { style = style, grow = grow, hair = hair, guides = guides, motion = motion,
-        height = height_before, angle = refit.angle_error(strands, style),
-        length = refit.length_error(strands, hair) }
+    local angle = refit.angle_error(strands, style)
+    if curl then curls.wind(hair, curl, #guides:guides()) end
+    return { style = style, grow = grow, hair = hair, curl = curl, guides = guides, motion = motion,
+        height = height_before, angle = angle, length = refit.length_error(given, hair) }
 end
 
 return refit

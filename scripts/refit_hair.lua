@@ -37,6 +37,10 @@ print(string.format("placed: scaled by %.5g, turned by %g degrees, %s up; roots 
     motion.scale, motion.turn, motion.up, 1000 * (made.height or 0)))
 print(string.format("%d guides: directions are off by %.1f degrees, lengths by %.1f %%",
     #made.guides:guides(), made.angle, 100 * made.length))
+if made.curl then
+    print(string.format("curls: radius %.1f mm, wavelength %.0f mm, hand %s, on %.0f %% of the strands",
+        1000 * made.curl.radius, 1000 * made.curl.wavelength, made.curl.hand, 100 * made.curl.share))
+end
 
 local look = { unit = made.style:scalp():unit() }
 for name, hair in pairs{ given = strands, grown = made.hair } do

@@ -751,3 +751,30 @@ test("two strands and strands without length make no style", function()
         counts = { 2, 2 } }
     expect.error(function() refit.style(dots, bald, { place = false }) end, "at least three strands")
 end)
+
+local curls = require "curls"
+
+test("curls of strands are measured: their radius, their length and their sense", function()
+    expect.equal(curls.measure(given()), nil)
+    for _, hand in ipairs{ "left", "right" } do
+        local hair = given():curl{ radius = 0.006, wavelength = 0.025, hand = hand, start = 0.01, ramp = 0.02,
+            hang = 0, variation = 0.1, keep_length = false }
+        local found = curls.measure(hair)
+        expect.near(found.radius, 0.006, 0.0009)
+        expect.near(found.wavelength, 0.025, 0.004)
+        expect.equal(found.hand, hand)
+        expect.truthy(found.share > 0.8 and found.depth == 1)
+    end
+end)
+
+test("a style of curled hair flows as its courses do, with its curls as an operator on top", function()
+    local hair = given():curl{ radius = 0.005, wavelength = 0.025, hand = "left", start = 0.01, ramp = 0.02,
+        hang = 0, keep_length = false }
+    local made = refit.style(hair, bald, { guides = 60, resolution = 12000 })
+    expect.truthy(made.angle < 15, "directions are off by " .. made.angle)
+    expect.truthy(made.length < 0.2, "lengths are off by " .. made.length)
+    local again = curls.measure(made.hair)
+    expect.near(again.radius, 0.005, 0.001)
+    expect.equal(again.hand, "left")
+    expect.equal(refit.style(hair, bald, { guides = 60, resolution = 8000, curls = false }).curl, nil)
+end)

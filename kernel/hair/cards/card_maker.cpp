@@ -20,6 +20,8 @@ constexpr double kMostTilt = 0.7, kMostTurn = 0.35;
 // of its strands in their middle, and of two that cross.
 constexpr double kLiftAlone = 0.8, kLiftCrossed = 0.55;
 constexpr int kSkinSteps = 20;
+// Metres that a card may begin before the mean of its roots.
+constexpr double kMostBefore = 0.015;
 // Metres.
 constexpr double kAwayStep = 1e-3;
 
@@ -124,7 +126,9 @@ class CardMaker {
             behind.push_back((tip - card_.sections.back().center).dot(end));
         }
         const double length = card_.length();
-        const double add_before = std::clamp(quantile(before, 0.9), 0.0, 0.3 * length);
+        // Farther than that, a straight beginning would stand off the head.
+        const double add_before =
+            std::clamp(quantile(before, 0.9), 0.0, std::min(0.3 * length, kMostBefore));
         const double add_behind = std::clamp(quantile(behind, 0.95), 0.0, 0.5 * length);
         std::vector<Vec3> points = centers();
         points.insert(points.begin(), points.front() - add_before * first);
