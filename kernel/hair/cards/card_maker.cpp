@@ -67,6 +67,15 @@ std::vector<Vec3> evenly(const std::vector<Vec3>& points, Index count) {
     return result;
 }
 
+// Each number becomes half itself and half the mean of those around it.
+void even_out(std::vector<double>& list) {
+    const std::vector<double> old = list;
+    const std::size_t last = list.size() - 1;
+    for (std::size_t k = 0; k <= last; ++k) {
+        list[k] = 0.5 * old[k] + 0.25 * (old[k > 0 ? k - 1 : 0] + old[std::min(k + 1, last)]);
+    }
+}
+
 Vec3 card_direction(const std::vector<CardSection>& sections, Index k) {
     const Index last = count_of(sections) - 1;
     const Vec3 along =
@@ -205,20 +214,23 @@ class CardMaker {
                 outs[at(section)].push_back((p - near.center).dot(near.out));
             }
         }
-        std::vector<double> widths;
+        std::vector<double> widths, aside, lifts;
         for (Index k = 0; k < ground_.sections; ++k) {
             std::vector<double>& list = sides[at(k)];
             const double reach = 0.5 * ground_.options.coverage;
             const double high = quantile(list, 0.5 + reach);
             const double low = over_skin(card_.sections[at(k)], quantile(list, 0.5 - reach), high);
-            widths.push_back(list.empty() && k > 0 ? widths.back() : 0.5 * (high - low));
-            if (list.empty()) continue;
             const double lift = plane_ == CardPlane::alone ? kLiftAlone : kLiftCrossed;
-            CardSection& section = card_.sections[at(k)];
-            section.center +=
-                0.5 * (low + high) * section.across + quantile(outs[at(k)], lift) * section.out;
+            widths.push_back(list.empty() && k > 0 ? widths.back() : 0.5 * (high - low));
+            aside.push_back(list.empty() && k > 0 ? aside.back() : 0.5 * (low + high));
+            lifts.push_back(list.empty() && k > 0 ? lifts.back() : quantile(outs[at(k)], lift));
         }
-        set_widths(widths);
+        for (std::vector<double>* list : {&widths, &aside, &lifts}) even_out(*list);
+        for (Index k = 0; k < ground_.sections; ++k) {
+            CardSection& section = card_.sections[at(k)];
+            section.center += aside[at(k)] * section.across + lifts[at(k)] * section.out;
+            section.half_width = std::max(kLeastHalfWidth, widths[at(k)]);
+        }
     }
 
     // The lower edge of a card that stands on the skin.
@@ -230,16 +242,6 @@ class CardMaker {
             if (ground_.options.distance(edge) >= ground_.options.clearance) break;
         }
         return low;
-    }
-
-    // Widths between those around them.
-    void set_widths(const std::vector<double>& widths) {
-        for (Index k = 0; k < ground_.sections; ++k) {
-            const double near = 0.25 * widths[at(std::max(k - 1, 0))] +
-                                0.25 * widths[at(std::min(k + 1, ground_.sections - 1))];
-            card_.sections[at(k)].half_width =
-                std::max(kLeastHalfWidth, 0.5 * widths[at(k)] + near);
-        }
     }
 
     // Moves sections out until their centre and edges, and those halfway to the next, are clear.
