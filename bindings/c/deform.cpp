@@ -17,6 +17,7 @@
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/pins/surface_pins.h"
 #include "kernel/io/basis_file.h"
 
 namespace lissom::c {
@@ -120,6 +121,19 @@ lissom_contacts told_contacts(lissom_context& context, const std::vector<FacePai
         context.faces.push_back(pair.second);
     }
     return {context.faces.data(), pairs.size()};
+}
+
+std::vector<SlidingPin> sliding_pins(const lissom_context& context,
+                                     std::span<const lissom_sliding_pin> given) {
+    std::vector<SlidingPin> pins;
+    for (const lissom_sliding_pin& one : given) {
+        require(one.on >= LISSOM_PIN_PLANE && one.on <= LISSOM_PIN_SPHERE,
+                "there is no such place of a pin");
+        pins.push_back({one.vertex, static_cast<PinPlace>(one.on),
+                        context.space.to_kernel(one.point), context.space.to_kernel(one.direction),
+                        one.radius});
+    }
+    return pins;
 }
 
 // ---- Bases, in the host's space
@@ -424,6 +438,17 @@ lissom_status lissom_deformer_solve_avoiding_contacts(lissom_context* context,
             deformer_of(*context, deformer), mesh_of(*context, mesh), context->kernel);
         if (before) *before = avoided.before;
         *left = told_contacts(*context, avoided.contacts);
+    });
+}
+
+lissom_status lissom_deformer_solve_with_pins(lissom_context* context, lissom_deformer deformer,
+                                              const lissom_sliding_pin* pins, size_t pin_count,
+                                              double* distance) {
+    return run(context, [&] {
+        if (pin_count > 0) require_given(pins, "pins");
+        require_given(distance, "distance");
+        *distance = solve_with_pins(deformer_of(*context, deformer),
+                                    sliding_pins(*context, {pins, pin_count}), context->kernel);
     });
 }
 

@@ -1011,6 +1011,35 @@ LISSOM_API lissom_status lissom_deformer_solve_avoiding_contacts(lissom_context*
                                                                  lissom_deformer deformer,
                                                                  lissom_mesh mesh, int32_t* before,
                                                                  lissom_contacts* left);
+/// The places on which a pin may slide.
+typedef enum lissom_pin_place {
+    LISSOM_PIN_PLANE = 0,
+    LISSOM_PIN_LINE = 1,
+    LISSOM_PIN_SPHERE = 2
+} lissom_pin_place;
+
+/// A vertex that slides on a plane, a line or a sphere.
+typedef struct lissom_sliding_pin {
+    int32_t vertex;
+    lissom_pin_place on;
+    /// A point of the plane or line, or the centre of the sphere.
+    double point[3];
+    /// Normal of the plane or direction of the line, of any length.
+    double direction[3];
+    /// Of the sphere: the distance from its centre.
+    double radius;
+} lissom_sliding_pin;
+
+/// Solves in full with vertices held on places, at most 512, by forces square to these; handles
+/// hold exactly. `distance` is the greatest that is left between a vertex and its place: places
+/// that contradict each other stay apart. Errors: as solve; OUT_OF_RANGE; HANDLE_OUTSIDE_REGION;
+/// HANDLE_OVERLAP for a vertex that a handle holds or that is pinned twice; INVALID_ARGUMENT for a
+/// direction without length or a radius that is not above 0; NOT_FINITE; UNSUPPORTED for a
+/// comparison method.
+LISSOM_API lissom_status lissom_deformer_solve_with_pins(lissom_context* context,
+                                                         lissom_deformer deformer,
+                                                         const lissom_sliding_pin* pins,
+                                                         size_t pin_count, double* distance);
 /// Returns all handles and the surface to rest.
 LISSOM_API lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer);
 /// Makes the last result the rest shape; handles stay in place on it.

@@ -303,12 +303,12 @@ class Method:
 
     def take_many(self, parameter):
         hints = {"lissom_join": "Sequence[Join]", "char": "Sequence[str]", "void": "bytes", "lissom_mesh": "Sequence[Mesh]",
-                 "lissom_transform": "Sequence[Transform]",
+                 "lissom_transform": "Sequence[Transform]", "lissom_sliding_pin": "Sequence[Mapping[str, Any]]",
                  "lissom_named_pose": "Mapping[str, Union[Mesh, Sequence[Mesh]]]"}
         optional = parameter.type.base == "lissom_join"
         self.parameters.append((parameter.name, hints[parameter.type.base], "()" if optional else None))
         helper = {"lissom_join": "_joins", "char": "_texts", "void": "_bytes", "lissom_mesh": "_handles",
-                  "lissom_transform": "_transforms", "lissom_named_pose": "_named_poses"}[parameter.type.base]
+                  "lissom_transform": "_transforms", "lissom_sliding_pin": "_sliding_pins", "lissom_named_pose": "_named_poses"}[parameter.type.base]
         if parameter.type.base == "char" and parameter.type.stars == 1:
             self.parameters[-1] = (parameter.name, "str", None)
             helper = "_utf8"
@@ -486,7 +486,7 @@ class Objects:
                  "from . import _abi, _arrays", "from ._arrays import Array",
                  "from ._convert import (Join, Record, Transform, _bytes, _choice, _encoded, _handle_of, _handles, _joins,"
                  " _named_poses,", "                       _numbers, _points, _record, _strand_format, _strand_width, "
-                 "_taken_bytes, _text, _texts,", "                       _transform, _transforms, _utf8)",
+                 "_sliding_pins, _taken_bytes, _text, _texts,", "                       _transform, _transforms, _utf8)",
                  "from ._context import Context, Handle, _boundary_size, default_context", "from ._jobs import Job",
                  "from ._scripts import ScriptMethods", ""]
         structs = {s.name: s for s in self.header.structs}

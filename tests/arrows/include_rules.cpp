@@ -127,6 +127,7 @@ const std::vector<Names>& room_orders() {
          "kernel/deform/bones",
          "kernel/deform/boundary",
          "kernel/deform/contact",
+         "kernel/deform/pins",
          "kernel/deform/poses"},
         {"kernel/merge/provenance", "kernel/merge/loop", "kernel/merge/piece", "kernel/merge/sheet",
          "kernel/merge/sew", "kernel/merge/blend", "kernel/merge",

@@ -262,6 +262,18 @@ class Work(unittest.TestCase):
             deformer.reset_bones(bones)
         self.assertEqual(raised.exception.code, "handle_removed")
 
+    def test_pins_slide(self):
+        mesh = lissom.call("shapes.bar", across=2, along=10)
+        deformer = lissom.Deformer.create(mesh)
+        deformer.pin(lissom.Region.named(mesh, "bottom"))
+        top = deformer.add_handle(lissom.Region.named(mesh, "top"))
+        deformer.set_transform(top, [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0]])
+        rows = deformer.rows().tolist()
+        free = min(rows, key=lambda v: abs(mesh.positions().tolist()[v][1]))
+        pin = {"vertex": free, "on": "plane", "point": (-0.2, 0, 0), "direction": (1, 0, 0)}
+        self.assertLess(deformer.solve_with_pins([pin]), 1e-9)
+        self.assertAlmostEqual(deformer.positions().tolist()[rows.index(free)][0], -0.2, places=8)
+
     def test_poses_blend(self):
         mesh = sphere()
         deformer = lissom.Deformer.create(mesh)

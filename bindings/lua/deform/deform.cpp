@@ -6,6 +6,7 @@
 #include "bindings/lua/deform/deform_points.h"
 #include "bindings/lua/deform/deform_texts.h"
 #include "bindings/lua/deform/pose_object.h"
+#include "bindings/lua/deform/sliding_pins.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/transform_options.h"
@@ -248,6 +249,19 @@ int solve_avoiding(Call& call) {
     return 2;
 }
 
+// The mesh, and the distance from the places of the pins that is left.
+int solve_pinned(Call& call) {
+    const std::span<const SlidingPinSpec> specs = read_sliding_pins(call);
+    auto& pins = call.hold<std::vector<SlidingPin>>();
+    double off = 0.0;
+    const int results = write_result(call, [&](Deformer& deformer) {
+        pins = sliding_pins(specs);
+        off = solve_with_pins(deformer, pins, call.context());
+    });
+    if (results != 1) return results;
+    return 1 + call.push(off);
+}
+
 int solve(Call& call) {
     const bool draft = call.boolean("draft"), avoid = call.boolean("avoid");
     if (draft && (avoid || call.has("stop"))) {
@@ -255,6 +269,12 @@ int solve(Call& call) {
     }
     if (avoid && call.has("stop")) {
         call.reject("avoid", "a drag stops at contacts, or pushes them apart");
+    }
+    if (call.has("pins")) {
+        if (draft || avoid || call.has("stop")) {
+            call.reject("pins", "they hold in a result in full, without contacts");
+        }
+        return solve_pinned(call);
     }
     if (call.has("stop")) return solve_with_stop(call);
     if (avoid) return solve_avoiding(call);
@@ -515,11 +535,12 @@ std::vector<Function> solving_methods() {
                          "Pushes apart parts that would run through one another, in up to three "
                          "rounds: both alike unless one is held. Handles hold exactly. It takes "
                          "some frames if anything meets; see `contacts` for what is left.")
-                         .defaults(false)},
+                         .defaults(false),
+                     sliding_pins_option()},
          .results = {{"lissom.Mesh", "mesh", "The mesh."},
-                     {"lissom.ContactStop|lissom.AvoidedContacts|nil", "record",
+                     {"lissom.ContactStop|lissom.AvoidedContacts|number|nil", "record",
                       "With `stop` how far the handles came, with `avoid` the contacts before and "
-                      "after."}},
+                      "after, with `pins` the greatest distance of one from its place."}},
          .effect = Effect::replaces,
          .errors = kSolveErrors,
          .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }

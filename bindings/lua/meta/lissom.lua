@@ -1693,15 +1693,35 @@ function Deformer:mesh() end
 ---@return lissom.Mesh mesh # The mesh.
 function Deformer:preview() end
 
+---@class lissom.Deformer.SolveOptions.Pins.Plane
+---@field point lissom.Vector A point of it.
+---@field normal "x"|"y"|"z"|lissom.Vector Its normal.
+
+---@class lissom.Deformer.SolveOptions.Pins.Line
+---@field point lissom.Vector A point of it.
+---@field direction "x"|"y"|"z"|lissom.Vector Its direction.
+
+---@class lissom.Deformer.SolveOptions.Pins.Sphere
+---@field center lissom.Vector The point that it keeps its distance from.
+---@field radius number That distance. In mesh units.
+
+---@class lissom.Deformer.SolveOptions.Pins
+---@field vertex? integer The pinned vertex. Default: those of the region.
+---@field region? lissom.Region Pinned vertices, each for itself. Default: the vertex.
+---@field plane? lissom.Deformer.SolveOptions.Pins.Plane The plane that it slides on. Default: another place.
+---@field line? lissom.Deformer.SolveOptions.Pins.Line The line that it slides on. Default: another place.
+---@field sphere? lissom.Deformer.SolveOptions.Pins.Sphere The sphere that it slides on. Default: another place.
+
 ---@class lissom.Deformer.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 ---@field stop? "contact" "contact": goes from the poses of the last solve towards the present ones, and stays, with the handles, at the last pose before faces intersect that did not at rest. A drag that begins in contact goes on while no more do. Each sample of the way takes a frame. Default: goes all the way.
 ---@field avoid? boolean Pushes apart parts that would run through one another, in up to three rounds: both alike unless one is held. Handles hold exactly. It takes some frames if anything meets; see `contacts` for what is left. Default: false.
+---@field pins? lissom.Deformer.SolveOptions.Pins[] Vertices that slide on a place and are held there by forces square to it, in this solve. Handles hold exactly; places that contradict each other are kept as nearly as they can be. Default: none.
 
 ---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
----@return lissom.ContactStop|lissom.AvoidedContacts|nil record # With `stop` how far the handles came, with `avoid` the contacts before and after.
+---@return lissom.ContactStop|lissom.AvoidedContacts|number|nil record # With `stop` how far the handles came, with `avoid` the contacts before and after, with `pins` the greatest distance of one from its place.
 function Deformer:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.

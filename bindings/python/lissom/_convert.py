@@ -71,6 +71,16 @@ def _joins(joins):
     return ((_abi.lissom_join * len(made))(*made) if made else None), len(made)
 
 
+def _sliding_pins(pins):
+    """Pins as mappings: vertex, on ("plane", "line" or "sphere"), point, direction, radius."""
+    made = []
+    for pin in pins:
+        on = _choice(pin.get("on", "plane"), _abi.lissom_pin_place)
+        made.append(_abi.lissom_sliding_pin(pin["vertex"], on, (C.c_double * 3)(*pin["point"]),
+                                            (C.c_double * 3)(*pin.get("direction", (0, 0, 0))), pin.get("radius", 0.0)))
+    return ((_abi.lissom_sliding_pin * len(made))(*made) if made else None), len(made)
+
+
 def _handle_of(value, struct):
     if value is None:
         return struct(0)

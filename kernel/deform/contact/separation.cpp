@@ -1,14 +1,9 @@
 #include "kernel/deform/contact/separation.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include "kernel/deform/rotation/polar.h"
-#include "kernel/deform/rotation/winding.h"
-#include "kernel/deform/system/frame_blocks.h"
 
 namespace lissom {
 namespace {
@@ -25,9 +20,6 @@ constexpr double kMovable = 0.15;
 constexpr int kSweeps = 400;
 // Fits of the rotations to the displaced surface.
 constexpr int kFits = 2;
-// Rotations that change by more than this are followed less, and by twice as much not at all, as in
-// refinements: the surface has folded there.
-constexpr double kFittedTurn = 40.0 * kPi / 180.0;
 
 // Numbers of points that lie evenly among all, the deepest first, and their covering radius.
 std::pair<std::vector<std::size_t>, double> spread_seeds(const Penetration& points,
@@ -53,37 +45,7 @@ std::pair<std::vector<std::size_t>, double> spread_seeds(const Penetration& poin
 
 Separation::Separation(const Preparation& prepared, const DeformFrame& frame,
                        const Context& context)
-    : prepared_(prepared),
-      system_(*prepared.implicit()->second),
-      free_row_(at(prepared.patch().vertex_count), kNoIndex),
-      turning_(prepared.implicit()->gathered),
-      displacement_(at(prepared.patch().vertex_count), Vec4::Zero()),
-      turned_(displacement_),
-      change_(at(prepared.patch().real_count), PaddedMat3::Zero()) {
-    const std::vector<Index>& averaged = prepared.implicit()->averaged;
-    turning_.insert(turning_.end(), averaged.begin(), averaged.end());
-    const std::vector<Index>& free = system_.free_vertices();
-    for (std::size_t r = 0; r < free.size(); ++r) free_row_[at(free[r])] = index_of(r);
-    take_shape(frame);
-    fit(fitted_, context);
-}
-
-void Separation::take_shape(const DeformFrame& frame) {
-    const Patch& patch = prepared_.patch();
-    const RestShape& rest = *prepared_.rest;
-    const Index own = rest.region().size();
-    shape_.resize(at(patch.real_count));
-    for (Index v = 0; v < patch.real_count; ++v) {
-        const Index row = rest.frame_row(patch, v);
-        if (row == kNoIndex) {
-            shape_[at(v)] = padded(patch.rest[at(v)]);
-        } else {
-            const Vec3& place =
-                row < own ? frame.positions[at(row)] : frame.inserted[at(row - own)];
-            shape_[at(v)] = padded(Vec3(place - patch.origin));
-        }
-    }
-}
+    : displaced_(prepared, frame, context) {}
 
 bool Separation::add(std::span<const Penetration> penetrations, const Context& context) {
     std::size_t points = 0;
@@ -93,7 +55,7 @@ bool Separation::add(std::span<const Penetration> penetrations, const Context& c
         const std::size_t share = (kMostTogether * penetration.size() + points - 1) / points;
         add_rows(penetration, std::min(share, kMostOfOne), rows);
     }
-    for (Row& row : rows) row.depth += row.way.dot(mean_of(row, displacement_));
+    for (Row& row : rows) row.depth += row.way.dot(mean_of(row, displaced_.displacement()));
     const std::size_t before = rows_.size();
     rows_.insert(rows_.end(), std::make_move_iterator(rows.begin()),
                  std::make_move_iterator(rows.end()));
@@ -148,11 +110,8 @@ Separation::Row Separation::row_around(const Penetration& penetration, std::size
 }
 
 void Separation::add_entry(Row& row, Index mesh_vertex, double coefficient) const {
-    const std::vector<Index>& region = prepared_.rest->region().vertices();
-    const auto place = std::lower_bound(region.begin(), region.end(), mesh_vertex);
-    if (place == region.end() || *place != mesh_vertex) return;
-    const Index v = prepared_.patch().of_region[at(index_of(place - region.begin()))];
-    if (free_row_[at(v)] != kNoIndex) row.entries.emplace_back(v, coefficient);
+    const Index v = displaced_.free_vertex(mesh_vertex);
+    if (v != kNoIndex) row.entries.emplace_back(v, coefficient);
 }
 
 // Three rows at a time, as coordinates.
@@ -161,14 +120,14 @@ void Separation::find_responses(std::span<Row> rows, const Context& context) {
     for (std::size_t first = 0; first < rows.size(); first += 3) {
         context.checkpoint();
         const std::size_t columns = std::min<std::size_t>(3, rows.size() - first);
-        std::vector<Vec3> force(system_.free_vertices().size(), Vec3::Zero());
+        std::vector<Vec3> force(displaced_.system().free_vertices().size(), Vec3::Zero());
         for (std::size_t k = 0; k < columns; ++k) {
             for (const auto& [v, c] : rows[first + k].entries) {
-                force[at(free_row_[at(v)])][index_of(k)] += c;
+                force[at(displaced_.free_row(v))][index_of(k)] += c;
             }
         }
-        x.assign(displacement_.size(), Vec4::Zero());
-        system_.answer(force, x, scratch_, context);
+        x.assign(displaced_.turned().size(), Vec4::Zero());
+        displaced_.answer(force, x, context);
         for (std::size_t k = 0; k < columns; ++k) {
             std::vector<float>& response = rows[first + k].response;
             response.resize(x.size());
@@ -209,7 +168,8 @@ void Separation::find_forces(double softness) {
     Eigen::VectorXd force(count), asked(count);
     for (Index r = 0; r < count; ++r) {
         force[r] = rows_[at(r)].force;
-        asked[r] = rows_[at(r)].depth - rows_[at(r)].way.dot(mean_of(rows_[at(r)], turned_));
+        asked[r] =
+            rows_[at(r)].depth - rows_[at(r)].way.dot(mean_of(rows_[at(r)], displaced_.turned()));
     }
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         for (Index r = 0; r < count; ++r) {
@@ -222,64 +182,25 @@ void Separation::find_forces(double softness) {
 }
 
 void Separation::add_answers() {
-    displacement_ = turned_;
+    std::vector<Vec4>& u = displaced_.displacement();
+    u.assign(displaced_.turned().begin(), displaced_.turned().end());
     for (const Row& row : rows_) {
         if (row.force == 0.0) continue;
         const Vec4 push = padded(Vec3(row.force * row.way));
-        for (std::size_t v = 0; v < displacement_.size(); ++v) {
-            displacement_[v] += static_cast<double>(row.response[v]) * push;
+        for (std::size_t v = 0; v < u.size(); ++v) {
+            u[v] += static_cast<double>(row.response[v]) * push;
         }
     }
 }
 
-// The rotations that fit the displaced surface best.
-void Separation::fit(std::vector<Mat3>& rotations, const Context& context) const {
-    std::vector<Vec4> x(shape_);
-    for (std::size_t v = 0; v < x.size(); ++v) x[v] += displacement_[v];
-    rotations.resize(turning_.size());
-    const EnergyLoop loop = system_.energy();
-    for_each_block(context, count_of(turning_), [&](Index begin, Index end) {
-        const auto count = at(end - begin);
-        Mat3* const m = rotations.data() + begin;
-        loop.fit(x.data(), turning_.data(), m, begin, end);
-        nearest_rotations({m, count}, {m, count});
-    });
-}
-
-void Separation::turn(const Context& context) {
-    std::vector<Mat3> fitted;
-    fit(fitted, context);
-    const Mat3 base = Mat3::Identity();
-    for (std::size_t i = 0; i < turning_.size(); ++i) {
-        const Eigen::AngleAxisd change(Mat3(fitted[i] * fitted_[i].transpose()));
-        const double sure = 1.0 - smooth_step((change.angle() - kFittedTurn) / kFittedTurn);
-        const Mat3 by = rotation_of_turn(sure * change.angle() * change.axis()) - base;
-        change_[at(turning_[i])] = padded_columns(by * fitted_[i]);
-    }
-    turned_.assign(turned_.size(), Vec4::Zero());
-    system_.solve(change_, turned_, false, scratch_, context);
-}
-
 void Separation::solve(double softness, const Context& context) {
-    turned_.assign(turned_.size(), Vec4::Zero());
+    displaced_.forget_turns();
     for (Row& row : rows_) row.force = 0.0;
     for (int fit = 0;; ++fit) {
         find_forces(softness);
         add_answers();
         if (fit == kFits) return;
-        turn(context);
-    }
-}
-
-void Separation::displace(DeformFrame& frame) const {
-    const Patch& patch = prepared_.patch();
-    const RestShape& rest = *prepared_.rest;
-    const Index own = rest.region().size();
-    for (const Index v : system_.free_vertices()) {
-        const Index row = v < patch.real_count ? rest.frame_row(patch, v) : kNoIndex;
-        if (row == kNoIndex) continue;
-        Vec3& place = row < own ? frame.positions[at(row)] : frame.inserted[at(row - own)];
-        place += displacement_[at(v)].head<3>();
+        displaced_.turn(context);
     }
 }
 

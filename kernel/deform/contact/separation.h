@@ -11,10 +11,9 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/contact/penetration.h"
+#include "kernel/deform/frame/displaced_frame.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
-#include "kernel/deform/system/frame_loops.h"
-#include "kernel/deform/system/rotation_system.h"
 
 namespace lissom {
 
@@ -22,9 +21,7 @@ namespace lissom {
 /// the mean over a row of u at its vertices less u at their exits, along its way, shall be at least
 /// its depth. With K the matrix of the second system, J the rows and l their forces,
 ///     u = K^-1 (J^T l + change of the rotations),  l >= 0, zero if u is more than asked for,
-/// a linear complementarity problem in few unknowns. The rotations are those that fit the displaced
-/// surface best, less those that fit the frame: without them a push would shear the surface, and
-/// the frame stays the same beside a push.
+/// a linear complementarity problem in few unknowns; see DisplacedFrame.
 class Separation {
   public:
     /// Displaces `frame`, a full one of `prepared`, which has the implicit method.
@@ -38,7 +35,7 @@ class Separation {
     /// not as far as is asked. Errors: cancelled.
     void solve(double softness, const Context& context);
     /// Adds the displacement to the positions of the frame.
-    void displace(DeformFrame& frame) const;
+    void displace(DeformFrame& frame) const { displaced_.displace(frame); }
 
   private:
     struct Row {
@@ -50,7 +47,6 @@ class Separation {
         std::vector<float> response;
     };
 
-    void take_shape(const DeformFrame& frame);
     void add_rows(const Penetration& penetration, std::size_t most, std::vector<Row>& rows) const;
     Row row_around(const Penetration& penetration, std::size_t seed, double reach) const;
     void add_entry(Row& row, Index mesh_vertex, double coefficient) const;
@@ -59,21 +55,10 @@ class Separation {
     static Vec3 mean_of(const Row& row, std::span<const Vec4> u);
     void find_forces(double softness);
     void add_answers();
-    void fit(std::vector<Mat3>& rotations, const Context& context) const;
-    void turn(const Context& context);
 
-    const Preparation& prepared_;
-    const RotationSystem& system_;
-    std::vector<Index> free_row_, turning_;
-    /// Positions of real vertices in the frame, and the rotations that fit them.
-    std::vector<Vec4> shape_;
-    std::vector<Mat3> fitted_;
+    DisplacedFrame displaced_;
     std::vector<Row> rows_;
     Eigen::MatrixXd compliance_;
-    /// The displacement, and the part of the rotations in it, of all local vertices.
-    std::vector<Vec4> displacement_, turned_;
-    std::vector<PaddedMat3> change_;
-    RotationSystem::Scratch scratch_;
 };
 
 }  // namespace lissom

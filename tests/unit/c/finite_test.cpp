@@ -223,6 +223,17 @@ std::vector<Given> region_cases() {
 
 std::vector<Given> deform_cases() {
     return {
+        {"lissom_deformer_solve_with_pins", 7,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<7>({0, 0, 0, 0, 1, 0, 1}, i, bad);
+             const lissom_sliding_pin pin{10,
+                                          i == 6 ? LISSOM_PIN_SPHERE : LISSOM_PIN_PLANE,
+                                          {n[0], n[1], n[2]},
+                                          {n[3], n[4], n[5]},
+                                          n[6]};
+             double distance = 0.0;
+             return lissom_deformer_solve_with_pins(world, world.boned, &pin, 1, &distance);
+         }},
         {"lissom_deformer_follow_with_bones", 7,
          [](World& world, int i, double bad) {
              const auto n = with_bad<7>({0, -2, 0, 1, 2, 0, 0.5}, i, bad);
@@ -545,7 +556,7 @@ bool refuses_argument(lissom_status status) {
 bool takes_numbers(const std::string& parameters) {
     static const std::regex numbers(
         R"((const double\b|, double \w+[,)]|const lissom_transform\*|const lissom_placement\*|)"
-        R"(const lissom_join\*|const lissom_(mesh_load|mesh_save|deformer|handle|cut|hairstyle|)"
+        R"(const lissom_join\*|const lissom_sliding_pin\*|const lissom_(mesh_load|mesh_save|deformer|handle|cut|hairstyle|)"
         R"(grow|sandbox)_options\*|const lissom_buffer\*|)"
         R"(lissom_input\* (points|positions|spine|values|weights|correctives|joints)))");
     return std::regex_search(parameters, numbers);

@@ -526,6 +526,11 @@ void add_deform_cases(std::vector<MemoryCase>& all) {
         [](World& world) { return lissom_deformer_reset(world, world.deformer); });
     add("lissom_deformer_rebase", solved_deformer,
         [](World& world) { return lissom_deformer_rebase(world, world.deformer); });
+    add("lissom_deformer_solve_with_pins", posed_deformer, [](World& world) {
+        static const lissom_sliding_pin kPin{20, LISSOM_PIN_PLANE, {0, 0, 0}, {1, 0, 0}, 0};
+        double distance = 0.0;
+        return lissom_deformer_solve_with_pins(world, world.deformer, &kPin, 1, &distance);
+    });
     add("lissom_deformer_encode_basis", posed_deformer, [](World& world) {
         return lissom_deformer_encode_basis(world, world.deformer, &world.bytes);
     });
