@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kPictureLines = 1080.0;
 constexpr Index kLeastShellTriangles = 20;
+// Tried for a shell, after the one asked for.
+constexpr double kShellDensities[] = {0.28, 0.4, 0.5, 0.6, 0.72, 0.85};
 constexpr std::size_t kMaxLevelGroups = 1000;
 
 void require_strand_level(const StrandLevelOptions& level, Index all) {
@@ -132,9 +134,26 @@ class LevelMaker {
         HairLevel made;
         made.kind = HairLevelKind::shell;
         level.triangles = share_of(level.triangles, part_, kLeastShellTriangles);
-        made.mesh = make_shell(full_, level, context_);
         made.screen_size = size_of_error(level.cell);
-        made.silhouette = silhouette_.compare(made.mesh, context_);
+        const auto take = [&](double density) {
+            level.level = density;
+            Mesh mesh = make_shell(full_, level, context_);
+            const SilhouetteError error = silhouette_.compare(mesh, context_);
+            if (made.mesh.face_count() > 0 && error.mean >= made.silhouette.mean) return false;
+            made.mesh = std::move(mesh);
+            made.silhouette = error;
+            return true;
+        };
+        take(level.level);
+        if (!options_.fit_shell) return made;
+        // The error falls and then rises with the density; thin hair has no shell of a high one.
+        try {
+            for (const double density : kShellDensities) {
+                if (density > level.level && !take(density)) break;
+            }
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::invalid_argument) throw;
+        }
         return made;
     }
 

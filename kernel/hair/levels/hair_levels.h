@@ -36,6 +36,9 @@ struct HairLevelOptions {
     std::vector<StrandLevelOptions> strands = {};
     std::vector<CardOptions> cards = {};
     std::optional<ShellOptions> shell = {};
+    /// ShellOptions::level grows until the silhouette of the shell is nearest to that of the hair:
+    /// the outline of short and of thin hair lies deep within the little hair around it.
+    bool fit_shell = true;
     /// Each group has all levels, and so have the strands of no group; groups that cover no pixel
     /// have none, as a warning of the log says. Counts of strands, cards and
     /// triangles are those of all groups together, which get their part by numbers of strands.

@@ -329,6 +329,7 @@ TEST_CASE("levels: cards and shells are those of their functions") {
     const Strands hair = radial_hair(3000);
     const auto levels = make_hair_levels(hair, {.cards = {{.count = 40, .sections = 5, .slots = 8}},
                                                 .shell = ShellOptions{.triangles = 300},
+                                                .fit_shell = false,
                                                 .width = 0.0005});
     REQUIRE(levels.size() == 2);
     CHECK(levels[0].kind == HairLevelKind::cards);
@@ -350,6 +351,16 @@ TEST_CASE("levels: cards and shells are those of their functions") {
     CHECK(levels[1].screen_size == doctest::Approx((box.max.y() - box.min.y()) / 5.4));
     CHECK(levels[0].screen_size ==
           doctest::Approx((box.max.y() - box.min.y()) / (1080.0 * cards.rms)));
+}
+
+TEST_CASE("levels: the density of a shell is fitted to the silhouette of the hair") {
+    const Strands hair = two_groups();
+    HairLevelOptions options{.shell = ShellOptions{.triangles = 300}, .fit_shell = false};
+    const double before = make_hair_levels(hair, options)[0].silhouette.mean;
+    options.fit_shell = true;
+    const auto fitted = make_hair_levels(hair, options);
+    CHECK(fitted[0].silhouette.mean <= before);
+    CHECK(fitted[0].silhouette.mean == HairSilhouette(hair).compare(fitted[0].mesh).mean);
 }
 
 TEST_CASE("levels: by groups each has its part of the counts, and is measured by itself") {
