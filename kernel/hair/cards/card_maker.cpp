@@ -22,6 +22,8 @@ constexpr double kLiftAlone = 0.8, kLiftCrossed = 0.55;
 constexpr int kSkinSteps = 20;
 // Metres that a card may begin before the mean of its roots.
 constexpr double kMostBefore = 0.015;
+// Part of its length by which a card may go on straight behind the mean of its tips.
+constexpr double kMostBehind = 0.2;
 // Metres.
 constexpr double kAwayStep = 1e-3;
 
@@ -138,7 +140,7 @@ class CardMaker {
         // Farther than that, a straight beginning would stand off the head.
         const double add_before =
             std::clamp(quantile(before, 0.9), 0.0, std::min(0.3 * length, kMostBefore));
-        const double add_behind = std::clamp(quantile(behind, 0.95), 0.0, 0.5 * length);
+        const double add_behind = std::clamp(quantile(behind, 0.95), 0.0, kMostBehind * length);
         std::vector<Vec3> points = centers();
         points.insert(points.begin(), points.front() - add_before * first);
         points.push_back(points.back() + add_behind * end);
