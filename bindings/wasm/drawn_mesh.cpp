@@ -58,10 +58,48 @@ lissom_status read_surface(lissom_context* context, lissom_mesh mesh, Surface& s
     return status == LISSOM_OK ? lissom_mesh_read_triangles(context, mesh, &corners) : status;
 }
 
+// The corners of all faces, and the place of the first of each.
+struct Faces {
+    std::vector<std::uint32_t> corners;
+    std::vector<std::size_t> first;
+};
+
+lissom_status read_faces(lissom_context* context, lissom_mesh mesh, Faces& faces) {
+    const auto corner_count = static_cast<std::size_t>(lissom_mesh_corner_count(context, mesh));
+    const auto face_count = static_cast<std::size_t>(lissom_mesh_face_count(context, mesh));
+    std::vector<std::uint32_t> sizes(face_count);
+    faces.corners.resize(corner_count);
+    const lissom_output all{faces.corners.data(), corner_count, 0, LISSOM_UINT32};
+    const lissom_output counts{sizes.data(), face_count, 0, LISSOM_UINT32};
+    const lissom_status status = lissom_mesh_read_faces(context, mesh, &all, &counts);
+    faces.first.assign(face_count + 1, 0);
+    for (std::size_t f = 0; f < face_count; ++f) faces.first[f + 1] = faces.first[f] + sizes[f];
+    return status;
+}
+
+// The face of each triangle: those of a face with n sides are n - 2, one after the other.
+lissom_status find_faces(lissom_context* context, lissom_mesh mesh, Surface& surface) {
+    surface.face.clear();
+    Faces faces;
+    const lissom_status status = read_faces(context, mesh, faces);
+    for (std::size_t f = 0; f + 1 < faces.first.size(); ++f) {
+        const std::size_t sides = faces.first[f + 1] - faces.first[f];
+        surface.face.insert(surface.face.end(), std::max(sides, std::size_t{2}) - 2,
+                            static_cast<std::uint32_t>(f));
+    }
+    surface.face.resize(surface.corners.size() / 3);
+    return status;
+}
+
 void find_normals(Surface& surface) {
-    surface.normals.resize(surface.corners.size() / 3);
+    std::vector<Vector> sums(surface.face.empty() ? 0 : std::size_t{surface.face.back()} + 1);
+    for (std::size_t t = 0; t < surface.face.size(); ++t) {
+        const Vector area = cross(edge(surface, 3 * t, 1), edge(surface, 3 * t, 2));
+        for (std::size_t i = 0; i < 3; ++i) sums[surface.face[t]][i] += area[i];
+    }
+    surface.normals.resize(surface.face.size());
     for (std::size_t t = 0; t < surface.normals.size(); ++t) {
-        surface.normals[t] = unit(cross(edge(surface, 3 * t, 1), edge(surface, 3 * t, 2)));
+        surface.normals[t] = unit(sums[surface.face[t]]);
     }
 }
 
@@ -76,33 +114,65 @@ void sort_corners(Surface& surface) {
     }
 }
 
-// The mean of the faces around that do not crease with that of the corner, weighted by angles.
-Vector corner_normal(const Surface& surface, const std::vector<double>& angles, std::size_t corner,
-                     double least_cosine) {
-    const Vector& own = surface.normals[corner / 3];
-    const std::uint32_t vertex = surface.corners[corner];
-    Vector sum{};
-    for (std::uint32_t k = surface.first[vertex]; k < surface.first[vertex + 1]; ++k) {
-        const std::uint32_t other = surface.around[k];
-        const Vector& normal = surface.normals[other / 3];
-        if (dot(own, normal) < least_cosine) continue;
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += angles[other] * normal[i];
+std::uint32_t next_vertex(const Surface& surface, std::size_t corner, std::size_t step) {
+    return surface.corners[corner / 3 * 3 + (corner + step) % 3];
+}
+
+// Whether two corners of a vertex are neighbours over an edge that is no crease. A face without
+// area has no side of its own.
+bool are_joined(const Surface& surface, std::size_t a, std::size_t b, double least_cosine) {
+    if (next_vertex(surface, a, 1) != next_vertex(surface, b, 2) &&
+        next_vertex(surface, a, 2) != next_vertex(surface, b, 1)) {
+        return false;
     }
-    return unit(sum);
+    if (surface.face[a / 3] == surface.face[b / 3]) return true;
+    const Vector &p = surface.normals[a / 3], &q = surface.normals[b / 3];
+    return dot(p, p) == 0.0 || dot(q, q) == 0.0 || dot(p, q) >= least_cosine;
+}
+
+// The first of the corners that hang together with the one at `place`.
+std::size_t first_of(std::vector<std::size_t>& group, std::size_t place) {
+    while (group[place] != place) place = group[place] = group[group[place]];
+    return place;
+}
+
+// Writes normals of the corners of a vertex: the means of faces between creases, weighted by
+// angles, as corner_normals in viewer/render/draw.
+void put_normals(const Surface& surface, std::uint32_t vertex, double least_cosine,
+                 std::vector<Vector>& normals) {
+    const std::uint32_t* around = surface.around.data() + surface.first[vertex];
+    const std::size_t count = surface.first[vertex + 1] - surface.first[vertex];
+    std::vector<std::size_t> group(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        group[i] = i;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!are_joined(surface, around[i], around[j], least_cosine)) continue;
+            group[first_of(group, j)] = first_of(group, i);
+        }
+    }
+    std::vector<Vector> sums(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double weight = angle(surface, around[i]);
+        const Vector& normal = surface.normals[around[i] / 3];
+        Vector& sum = sums[first_of(group, i)];
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * normal[k];
+    }
+    for (std::size_t i = 0; i < count; ++i) normals[around[i]] = unit(sums[first_of(group, i)]);
 }
 
 void put_corners(const Surface& surface, double least_cosine, DrawnMesh& drawn) {
     const std::size_t count = surface.corners.size();
-    std::vector<double> angles(count);
-    for (std::size_t c = 0; c < count; ++c) angles[c] = angle(surface, c);
+    std::vector<Vector> normals(count);
+    for (std::uint32_t v = 0; v + 1 < surface.first.size(); ++v) {
+        put_normals(surface, v, least_cosine, normals);
+    }
     drawn.positions.resize(3 * count);
     drawn.normals.resize(3 * count);
     for (std::size_t c = 0; c < count; ++c) {
         const Vector place = position(surface, surface.corners[c]);
-        const Vector normal = corner_normal(surface, angles, c, least_cosine);
         for (std::size_t i = 0; i < 3; ++i) {
             drawn.positions[3 * c + i] = static_cast<float>(place[i]);
-            drawn.normals[3 * c + i] = static_cast<float>(normal[i]);
+            drawn.normals[3 * c + i] = static_cast<float>(normals[c][i]);
         }
     }
     drawn.vertices = surface.corners;
@@ -192,25 +262,6 @@ double spread(const std::vector<Vector>& places) {
     return std::sqrt(sum);
 }
 
-// The corners of all faces, and the place of the first of each.
-struct Faces {
-    std::vector<std::uint32_t> corners;
-    std::vector<std::size_t> first;
-};
-
-lissom_status read_faces(lissom_context* context, lissom_mesh mesh, Faces& faces) {
-    const auto corner_count = static_cast<std::size_t>(lissom_mesh_corner_count(context, mesh));
-    const auto face_count = static_cast<std::size_t>(lissom_mesh_face_count(context, mesh));
-    std::vector<std::uint32_t> sizes(face_count);
-    faces.corners.resize(corner_count);
-    const lissom_output all{faces.corners.data(), corner_count, 0, LISSOM_UINT32};
-    const lissom_output counts{sizes.data(), face_count, 0, LISSOM_UINT32};
-    const lissom_status status = lissom_mesh_read_faces(context, mesh, &all, &counts);
-    faces.first.assign(face_count + 1, 0);
-    for (std::size_t f = 0; f < face_count; ++f) faces.first[f + 1] = faces.first[f] + sizes[f];
-    return status;
-}
-
 // The place on its face that root `s` names.
 Vector place_on_face(const Surface& surface, const Faces& faces, const Roots& roots,
                      std::size_t s) {
@@ -269,9 +320,11 @@ lissom_status draw_change(lissom_context* context, lissom_mesh mesh, double crea
     if (has_same_faces) {
         surface.first = std::move(kept.surface.first);
         surface.around = std::move(kept.surface.around);
+        surface.face = std::move(kept.surface.face);
     } else {
         sort_corners(surface);
-        status = put_edges(context, mesh, surface, drawn);
+        status = find_faces(context, mesh, surface);
+        if (status == LISSOM_OK) status = put_edges(context, mesh, surface, drawn);
     }
     find_normals(surface);
     put_corners(surface, std::cos(crease * std::numbers::pi / 180.0), drawn);

@@ -27,7 +27,9 @@ lissom_status draw_mesh(lissom_context* context, lissom_mesh mesh, double crease
 struct Surface {
     std::vector<double> positions;
     std::vector<std::uint32_t> corners;
-    /// Of triangles, of unit length.
+    /// The face of each triangle.
+    std::vector<std::uint32_t> face;
+    /// Of the faces of triangles, of unit length; zero without area.
     std::vector<std::array<double, 3>> normals;
     /// Corners by their vertex: those of vertex v begin at first[v].
     std::vector<std::uint32_t> first, around;

@@ -5,6 +5,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
+import { toLink } from '../../viewer/web/link.js';
 import { openBrowser, serve, skip } from './browser.mjs';
 
 const [folder, ...options] = process.argv.slice(2);
@@ -14,8 +15,10 @@ const pictures = options.includes('--pictures') ? options[options.indexOf('--pic
 const troubles = [];
 const patience = 240000;
 
-async function opened(hash = '', size = { width: 1400, height: 900 }) {
+// `before`: a function that the page runs first.
+async function opened(hash = '', size = { width: 1400, height: 900 }, before = null) {
     const context = await browser.createBrowserContext(), page = await context.newPage();
+    if (before) await page.evaluateOnNewDocument(before);
     await page.setViewport(size);
     page.on('console', message => { if (['error', 'warn'].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text())) troubles.push(message.text()); });
     page.on('pageerror', error => troubles.push(String(error)));
@@ -67,7 +70,7 @@ const handIn = async (page, script, frame = {}) => {
         const view = window.lissomView;
         view.frame();
         if (toward) view.toward = toward;
-        view.fit(view.picture.box);
+        view.fit();
     }, frame);
 };
 // What the worker has answered when it has done all.
@@ -554,7 +557,7 @@ test('one finger is the hand of a tool, two turn the view', async () => {
     const run = await count(page);
     await page.tap('#run');
     await runs(page, run + 1);
-    await page.evaluate(() => { const view = window.lissomView; view.frame(); view.toward = [0, 0, 1]; view.fit(view.picture.box); });
+    await page.evaluate(() => { const view = window.lissomView; view.frame(); view.toward = [0, 0, 1]; view.fit(); });
     await page.tap('[data-tool=deform]');
     await answered(page);
     const drag = async pixels => {
@@ -592,6 +595,103 @@ test('one finger is the hand of a tool, two turn the view', async () => {
     assert.ok(now.every((x, k) => Math.abs(x - seen[k]) > 1e-3), `${seen} ${now}`);
     await page.tap('#undo');
     assert.equal((await answered(page)).keys[0], before.keys[0]);
+    await page.close();
+});
+
+test('every tool of the bar can be taken', async () => {
+    const page = await opened();
+    await handIn(page, 'return require("lissom").shapes.head{ vertices = 3000 }');
+    const names = await page.$$eval('#toolbar [data-tool]', buttons => buttons.map(one => one.dataset.tool).filter(Boolean));
+    assert.ok(names.length >= 18, String(names));
+    for (const name of names) {
+        const { tool, failures } = await take(page, name);
+        assert.deepEqual([tool, failures], [name, []]);
+    }
+    await shot(page, 'toolbar');
+    await page.close();
+});
+
+test('a bar is cut, lined, bent by bones and put elsewhere', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    const first = await take(page, 'cut');
+    const cut = await stroke(page, [await pixel(page, [-0.8, 0.3, 0]), await pixel(page, [0.8, 0.3, 0])]);
+    assert.deepEqual([cut.failures, cut.keys.length, cut.steps.undo], [[], 2, 'cut']);
+    assert.deepEqual((await press(page, 'z', ['Control'])).keys, first.keys);
+    await take(page, 'line');
+    const lined = await stroke(page, [await pixel(page, [-0.3, -1, 0.5]), await pixel(page, [0.3, 1, 0.5])]);
+    assert.deepEqual(lined.failures, []);
+    assert.ok(await page.evaluate(() => window.lissomView.drawn.lines.count > 4));
+    await press(page, 'z', ['Control']);
+    await take(page, 'bones');
+    const laid = await stroke(page, [await pixel(page, [0, -1.7, 0.5]), await pixel(page, [0, 1.7, 0.5])]);
+    assert.deepEqual(laid.failures, []);
+    const tip = await pixel(page, [0, 1.7, 0]);
+    const bent = await stroke(page, [tip, [tip[0] + 60, tip[1] + 20]]);
+    assert.deepEqual(bent.failures, []);
+    assert.notEqual(bent.keys[0], first.keys[0]);
+    await shot(page, 'hand_bones');
+    await page.close();
+});
+
+test('hair is shaken while the button is down, and hangs as before afterwards', async () => {
+    const page = await opened();
+    await handIn(page, `local lissom = require "lissom"
+local head = lissom.shapes.head{ vertices = 3000 }
+local style = lissom.hairstyle(head, { resolution = 20000 })
+for _, side in ipairs{ -1, 1 } do
+    style:add_stream{ style:at{ azimuth = 10 * side, elevation = 60 }, style:at{ azimuth = 90 * side, elevation = 0 } }
+end
+local hair = style:grow{ count = 400, length = 0.2 }
+lissom.render{ mesh = head, strands = hair, file = "hair.png" }
+return style`);
+    const before = await take(page, 'dynamics'), middle = await pixel(page, [0, 0, 0]);
+    await page.mouse.move(...middle);
+    await page.mouse.down();
+    await page.mouse.move(middle[0] + 120, middle[1], { steps: 4 });
+    await page.waitForFunction(key => window.lissomHand.last.keys[1] !== key, { timeout: patience }, before.keys[1]);
+    await page.mouse.up();
+    const after = await answered(page);
+    assert.deepEqual([after.failures, after.keys], [[], before.keys]);
+    await page.close();
+});
+
+test('the style of a preset is drawn on', async () => {
+    const text = fs.readFileSync(new URL('../../scripts/presets/bob.lua', import.meta.url), 'utf8');
+    const link = await toLink({ script: text, values: { vertices: 3000, count: 2000, resolution: 20000, format: 'hair' }, name: 'bob.lua', picture: 'bob_front' });
+    const page = await opened(`#s=${link}`);
+    assert.equal((await last(page)).error, undefined);
+    const before = await take(page, 'stream');
+    assert.deepEqual([before.failures, before.keys.length], [[], 2]);
+    const top = await pixel(page, await farthest(page, [0, 1, 0]));
+    const drawn = await stroke(page, [[top[0] + 30, top[1] + 40], [top[0] + 110, top[1] + 110], [top[0] + 130, top[1] + 240]]);
+    assert.deepEqual([drawn.failures, drawn.keys.length], [[], 2]);
+    assert.notEqual(drawn.keys[1], before.keys[1]);
+    await shot(page, 'hand_preset');
+    await page.close();
+});
+
+test('a file that is too large is refused, with a way out', async () => {
+    const page = await opened(), before = await count(page);
+    await page.evaluate(() => {
+        const file = new File(['v'], 'scan.obj');
+        Object.defineProperty(file, 'size', { value: 5e8 });
+        const drop = Object.assign(new Event('drop', { cancelable: true }), { dataTransfer: { files: [file], types: ['Files'] } });
+        window.dispatchEvent(drop);
+    });
+    assert.match(await page.$eval('#note', node => node.textContent), /scan\.obj has 500 MB.*program/);
+    assert.equal(await count(page), before);
+    await page.close();
+});
+
+test('without WebGL 2 scripts run, and the page says why there is no picture', async () => {
+    const page = await opened('', { width: 1400, height: 900 }, () => {
+        const get = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };
+    });
+    assert.equal((await last(page)).ok, true);
+    assert.match(await page.$eval('#no-picture', node => node.textContent), /WebGL 2.*another browser/);
+    await shot(page, 'no_webgl');
     await page.close();
 });
 

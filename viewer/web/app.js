@@ -623,7 +623,7 @@ async function begin() {
     try {
         view = new View($('canvas'), drawn);
     } catch (error) {
-        print(`There is no picture: ${error.message}. Scripts run all the same, and their files can be downloaded.`, 'error');
+        $('picture').append(made('p', { id: 'no-picture', textContent: `There is no picture: ${error.message}. Switch hardware acceleration on in its settings, or open the page in another browser. Scripts run all the same, and their files can be downloaded.` }));
     }
     if (view) view.covered = covered;
     window.lissomView = view;

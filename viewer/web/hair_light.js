@@ -1,4 +1,7 @@
 // Light inside of hair: on a grid around it, how much of the light from all sides arrives, and from where.
+// Of the tint of the scalp: widths a square metre of full hair, shares of the usual density, metres over which roots are
+// even.
+const fullWidths = 55, bareShare = 0.25, coveredShare = 0.8, rootMean = 0.0165;
 const directions = [];
 for (let x = -1; x <= 1; ++x)
     for (let y = -1; y <= 1; ++y)
@@ -82,13 +85,59 @@ function momentsOf(grid, depth) {
     return texels;
 }
 
+// Adds a value to the eight cells around a place, by how near they are.
+function splat(grid, values, place, value) {
+    const { size, origin, step } = grid, at = place.map((x, k) => (x - origin[k]) / step - 0.5), cell = at.map(Math.floor);
+    for (let i = 0; i < 8; ++i) {
+        const to = cell.map((x, k) => x + (i >> k & 1));
+        const share = at.reduce((all, x, k) => all * (i >> k & 1 ? x - cell[k] : 1 - x + cell[k]), 1);
+        if (to.every((x, k) => x >= 0 && x < size[k])) values[to[0] + size[0] * (to[1] + size[1] * to[2])] += share * value;
+    }
+}
+
+// Means over three cells along each axis.
+function smoothed({ size }, values) {
+    const steps = [1, size[0], size[0] * size[1]];
+    for (let k = 0; k < 3; ++k) {
+        const from = values.slice(), step = steps[k];
+        for (let i = 0; i < values.length; ++i) {
+            const at = Math.floor(i / step) % size[k];
+            values[i] = (from[i] + (at > 0 ? from[i - step] : 0) + (at + 1 < size[k] ? from[i + step] : 0)) / 3;
+        }
+    }
+    return values;
+}
+
+function usualOf(values) {
+    let sum = 0, squares = 0;
+    for (const x of values) { sum += x; squares += x * x; }
+    return sum > 0 ? squares / sum : 0;
+}
+
+// How far the scalp has the colour of the hair that grows there, a byte a cell: as scalp_tint in viewer/render/strands.
+// `scale`: units of the points in a metre.
+function scalpTint(grid, points, offsets, widths, scale) {
+    const roots = new Float32Array(grid.size[0] * grid.size[1] * grid.size[2]), metres = grid.step / scale;
+    for (let s = 0; s + 1 < offsets.length; ++s) {
+        const p = offsets[s];
+        if (offsets[s + 1] > p + 1) splat(grid, roots, [points[3 * p], points[3 * p + 1], points[3 * p + 2]], widths[p] / scale);
+    }
+    const strength = Math.min(usualOf(roots) / (fullWidths * metres * metres), 1);
+    for (let pass = 0; pass < 3 && rootMean >= 2 * metres; ++pass) smoothed(grid, roots);
+    const usual = usualOf(roots);
+    return Uint8Array.from(roots, r => {
+        const t = usual > 0 ? Math.min(Math.max((r / usual - bareShare) / (coveredShare - bareShare), 0), 1) : 0;
+        return 255 * 0.7 * strength * t * t * (3 - 2 * t);
+    });
+}
+
 // Returns the grid, the light that arrives at the hair, and the light behind hair alone: the shadow of the head on itself
-// is no shadow of hair, and has none of its colour.
-export function hairLight(points, offsets, widths, head) {
+// is no shadow of hair, and has none of its colour. `scale`: units of the points in a metre.
+export function hairLight(points, offsets, widths, head, scale) {
     if (points.length < 6) return null;
     const grid = gridAround(points, 40), depth = depths(grid, points, offsets, widths);
     const onHead = momentsOf(grid, depth);
-    if (!head) return { ...grid, texels: onHead, onHead };
+    if (!head) return { ...grid, texels: onHead, onHead, tint: new Uint8Array(depth.length) };
     addHead(grid, depth, head);
-    return { ...grid, texels: momentsOf(grid, depth), onHead };
+    return { ...grid, texels: momentsOf(grid, depth), onHead, tint: scalpTint(grid, points, offsets, widths, scale) };
 }

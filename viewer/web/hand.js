@@ -81,6 +81,17 @@ export class Hand {
     answered() {
         this.isWaiting = false;
         this.send();
+        this.tick();
+    }
+
+    // For what moves by itself while the button is down.
+    tick() {
+        clearTimeout(this.clock);
+        if (this.pointer === null || !this.last?.ticks) return;
+        const seconds = (performance.now() - this.ticked) / 1000;
+        if (seconds < 0.033) { this.clock = setTimeout(() => this.tick(), 34 - 1000 * seconds); return; }
+        this.ticked = performance.now();
+        this.put({ kind: 'tick', event: { seconds: Math.min(seconds, 0.25) } });
     }
 
     // ---- The tool
@@ -134,6 +145,7 @@ export class Hand {
 
     press(event) {
         this.pointer = event.pointerId;
+        this.ticked = performance.now();
         // A view that one works in stays; meanwhile hair is drawn as when it turns.
         this.view.touched = this.view.moving = true;
         this.put({ kind: 'press', event: { ...this.place(event), button: 'left' } });

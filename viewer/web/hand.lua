@@ -79,8 +79,11 @@ local function host_of(place)
     if not picture then lissom.error{ message = "the script has shown nothing for a tool to work on" } end
     local scene = scene_of(picture)
     scene:clear_history()
+    -- The head of a style is another object than the drawn one.
     local colors = {}
-    for _, one in ipairs(picture.meshes) do colors[one.mesh] = one.color end
+    for _, one in ipairs(picture.meshes) do
+        colors[one.mesh], colors[one.mesh:hash()] = one.color, one.color
+    end
     hosts[place] = { picture = picture, colors = colors, tools = {}, host = lissom.tool_host{ scene = scene,
         camera = lissom.camera{ eye = { 0, 0, 5 } }, up = picture.up == "z" and "z" or "y" } }
     return hosts[place]
@@ -107,7 +110,7 @@ end
 
 function does.set(state, input) state.host:set{ [input.name] = input.value } end
 
-for _, name in ipairs{ "press", "move", "release", "wheel", "key" } do
+for _, name in ipairs{ "press", "move", "release", "wheel", "key", "tick" } do
     does[name] = function(state, input) state.host[name](state.host, input.event) end
 end
 for _, name in ipairs{ "cancel", "undo", "redo" } do
@@ -171,7 +174,8 @@ local function key_of(mesh, parts, color)
 end
 
 local function mesh_of(state, one, marks)
-    local parts, color = parts_of(one.mesh, marks), state.colors[one.mesh] or one.color
+    local parts = parts_of(one.mesh, marks)
+    local color = state.colors[one.mesh] or one.color or state.colors[one.mesh:hash()]
     return { mesh = one.mesh, color = color, transform = one.transform, parts = parts,
         key = key_of(one.mesh, parts, color) }
 end
@@ -243,5 +247,6 @@ function playground.hand(place, inputs)
         regions = {}, meshes = {} }
     return { failures = failures, picture = picture_of(state, marks), marks = marks_of(marks),
         tool = host.tool and host.tool.name, prompt = host:prompt(), parameters = parameters_of(host.tool),
-        camera = looked(host), steps = steps_of(host.scene), held = host.held ~= nil }
+        camera = looked(host), steps = steps_of(host.scene), held = host.held ~= nil,
+        ticks = host.tool ~= nil and host.tool.tick ~= nil }
 end

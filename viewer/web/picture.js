@@ -1,11 +1,12 @@
 // Draws pictures of a script with WebGL 2: meshes, hair and lines, turned by mouse, pen and fingers.
 import { cross, dot, length, lookAt, minus, perspective, plus, scaling, times, unit } from './matrix.js';
-import { css, rgb } from './colors.js';
-import { hairFragment, hairVertex, lineVertex, meshFragment, meshVertex } from './shaders.js';
+import { colormap, css, rgb } from './colors.js';
+import { Occlusion } from './occlusion.js';
+import { ballFragment, ballVertex, hairFragment, hairVertex, lineVertex, meshFragment, meshVertex } from './shaders.js';
 
 const sides = {
     front: [0, 0, 1], back: [0, 0, -1], left: [-1, 0, 0.0001], right: [1, 0, 0.0001], top: [0, 1, 0.0001], bottom: [0, -1, 0.0001],
-    'three-quarter': [0.62, 0.42, 0.78],
+    'three-quarter': [0.538986, 0.342020, 0.769751],  // 35 degrees to the right, 20 up, as in kernel/sketch/camera.cpp
 };
 const identity = scaling(1);
 
@@ -18,6 +19,8 @@ function compiled(gl, vertex, fragment) {
         gl.attachShader(program, shader);
         if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(gl.getShaderInfoLog(shader));
     }
+    // The same slots in all programs that draw meshes.
+    ['a_position', 'a_normal'].forEach((name, slot) => gl.bindAttribLocation(program, slot, name));
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
     const places = {};
@@ -59,6 +62,20 @@ function ribbons(points, starts) {
     return { indices: indices.subarray(0, at), ends };
 }
 
+// Count, sum and sum of squares of some of the places of a mesh.
+function momentsOf({ positions, place }) {
+    const stride = 3 * Math.ceil(positions.length / 60000 || 1), sum = [0, 0, 0];
+    let count = 0, square = 0;
+    for (let i = 0; i < positions.length; i += stride, ++count) {
+        for (let k = 0; k < 3; ++k) {
+            const x = place ? place[k] * positions[i] + place[4 + k] * positions[i + 1] + place[8 + k] * positions[i + 2] + place[12 + k] : positions[i + k];
+            sum[k] += x;
+            square += x * x;
+        }
+    }
+    return { count, sum, square };
+}
+
 function joinedBoxes(a, b) {
     if (!a || !b) return a || b;
     return { low: a.low.map((x, k) => Math.min(x, b.low[k])), high: a.high.map((x, k) => Math.max(x, b.high[k])) };
@@ -72,6 +89,7 @@ export class View {
         this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, powerPreference: 'high-performance' });
         if (!this.gl) throw new Error('this browser has no WebGL 2');
         this.settings = { wire: false, flat: false, colors: true };
+        this.isQuick = false;
         // Pixels at the sides under other things; a fitted view leaves them free.
         this.covered = () => ({ left: 0, right: 0, bottom: 0 });
         // Pointers that turn the view; a hand (hand.js) may take some of them for its tool.
@@ -91,8 +109,12 @@ export class View {
         this.mesh = compiled(gl, meshVertex, meshFragment);
         this.hair = compiled(gl, hairVertex, hairFragment);
         this.line = compiled(gl, lineVertex, hairFragment);
+        this.ball = compiled(gl, ballVertex, ballFragment);
+        this.occlusion = new Occlusion(gl, compiled);
+        this.colormap = this.texture2d(256, colormap(256));
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.LEQUAL);
+        this.noTint = this.texture3d([1, 1, 1], new Uint8Array([0]), gl.R8, gl.RED);
         this.noLight = this.texture3d([1, 1, 1], new Uint8Array([255, 128, 128, 128]));
     }
 
@@ -126,7 +148,7 @@ export class View {
             return now;
         };
         const meshes = kept('meshes', mesh => this.uploadMesh(mesh)), strands = kept('strands', one => this.uploadStrands(one));
-        if (known.lines) this.free([known.lines]);
+        this.free([known.lines, known.balls]);
         this.drawn = { meshes: meshes.map(one => one.drawn), strands: strands.map(one => one.drawn), lines: this.uploadLines(picture) };
         picture.meshes = meshes.map(({ one }, i) => ({ ...one, raised: picture.meshes[i].raised }));
         picture.strands = strands.map(({ one }) => one);
@@ -142,16 +164,17 @@ export class View {
         this.drawn.meshes = picture.meshes.map(mesh => this.uploadMesh(mesh));
         this.drawn.strands = picture.strands.map(strands => this.uploadStrands(strands));
         this.drawn.lines = this.uploadLines(picture);
+        this.drawn.balls = this.uploadBalls(picture.balls);
     }
 
     free(list = null) {
-        const gl = this.gl, { meshes, strands, lines } = this.drawn;
-        for (const one of list || [...meshes, ...strands, ...(lines ? [lines] : [])]) {
+        const gl = this.gl, { meshes, strands, lines, balls } = this.drawn, all = list || [...meshes, ...strands, lines, balls];
+        for (const one of [...all, ...all.map(each => each?.balls)].filter(Boolean)) {
             gl.deleteVertexArray(one.array);
             one.buffers.forEach(buffer => gl.deleteBuffer(buffer));
-            if (one.light) [one.light.texture, one.light.onHead].forEach(texture => gl.deleteTexture(texture));
+            if (one.light) [one.light.texture, one.light.onHead, one.light.tinted].forEach(texture => gl.deleteTexture(texture));
         }
-        if (!list) this.drawn = { meshes: [], strands: [], lines: null };
+        if (!list) this.drawn = { meshes: [], strands: [], lines: null, balls: null };
     }
 
     buffer(values) {
@@ -179,7 +202,7 @@ export class View {
         this.attribute(slots.a_color, buffers[2], 4, gl.UNSIGNED_BYTE, true, 0, 0);
         this.attribute(slots.a_flags, buffers[3], 1, gl.UNSIGNED_BYTE, false, 0, 0);
         gl.bindVertexArray(null);
-        return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity, raised: mesh.raised };
+        return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity, raised: mesh.raised, balls: this.uploadBalls(mesh.balls), moments: momentsOf(mesh) };
     }
 
     // Other places or colours of a mesh that is drawn.
@@ -191,6 +214,7 @@ export class View {
             gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
         });
         drawn.place = mesh.place || identity;
+        if (mesh.positions) drawn.moments = momentsOf(mesh);
     }
 
     // Two vertices a point, which know the points before and after theirs.
@@ -208,8 +232,21 @@ export class View {
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
         gl.bindVertexArray(null);
         const light = strands.light && { ...strands.light, texture: this.texture3d(strands.light.size, strands.light.texels),
-            onHead: this.texture3d(strands.light.size, strands.light.onHead) };
+            onHead: this.texture3d(strands.light.size, strands.light.onHead), tinted: this.texture3d(strands.light.size, strands.light.tint, gl.R8, gl.RED) };
         return { array, buffers: [...buffers, corners], ends, light, look: strands.look };
+    }
+
+    // Null without any.
+    uploadBalls(balls) {
+        const gl = this.gl, { slots } = this.ball;
+        if (!balls?.length) return null;
+        const array = gl.createVertexArray();
+        gl.bindVertexArray(array);
+        const buffers = [this.buffer(new Float32Array(balls.flatMap(one => one.place))), this.buffer(new Uint8Array(balls.flatMap(one => [...rgb(one.color), 255])))];
+        this.attribute(slots.a_place, buffers[0], 3, gl.FLOAT, false, 0, 0, 1);
+        this.attribute(slots.a_color, buffers[1], 4, gl.UNSIGNED_BYTE, true, 0, 0, 1);
+        gl.bindVertexArray(null);
+        return { array, buffers, count: balls.length };
     }
 
     uploadLines(picture) {
@@ -233,10 +270,21 @@ export class View {
         return { array, buffers, count: from.length / 3 };
     }
 
-    texture3d(size, texels) {
+    // A row of colours.
+    texture2d(width, texels) {
         const gl = this.gl, texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+        for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
+        for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
+        return texture;
+    }
+
+    texture3d(size, texels, format = this.gl.RGBA8, kind = this.gl.RGBA) {
+        const gl = this.gl, texture = gl.createTexture();
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
         gl.bindTexture(gl.TEXTURE_3D, texture);
-        gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, ...size, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+        gl.texImage3D(gl.TEXTURE_3D, 0, format, ...size, 0, kind, gl.UNSIGNED_BYTE, texels);
         for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, axis, gl.CLAMP_TO_EDGE);
         for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, filter, gl.LINEAR);
         return texture;
@@ -251,6 +299,7 @@ export class View {
         this.toward = unit(up === 'z' ? [side[0], -side[2], side[1]] : side);
         this.target = [0, 0, 0];
         this.distance = 5;
+        this.fits = null;
         if (!camera) return;
         const back = minus(camera.eye, camera.target);
         this.toward = unit(back);
@@ -262,12 +311,12 @@ export class View {
     // Cells side by side, each with its meshes; all in one unless the picture has columns.
     cells() {
         const meshes = this.drawn.meshes, columns = this.picture?.columns || 0;
-        if (!columns || meshes.length < 2) return [{ meshes, box: this.picture?.box, hair: true, x: 0, y: 0, w: 1, h: 1 }];
+        if (!columns || meshes.length < 2) return [{ meshes, box: this.picture?.box, hair: true, place: 0, x: 0, y: 0, w: 1, h: 1 }];
         const wide = this.canvas.clientWidth >= this.canvas.clientHeight;
         const across = wide ? Math.min(columns, meshes.length) : 1;
         const rows = Math.ceil(meshes.length / across);
         return meshes.map((mesh, i) => ({
-            meshes: [mesh], box: this.picture.meshes[i].box, hair: false, caption: this.picture.meshes[i].caption,
+            meshes: [mesh], box: this.picture.meshes[i].box, hair: false, place: i, caption: this.picture.meshes[i].caption,
             x: i % across / across, y: 1 - (Math.floor(i / across) + 1) / rows, w: 1 / across, h: 1 / rows,
         }));
     }
@@ -277,32 +326,65 @@ export class View {
         if (!picture?.box) return;
         this.touched = false;
         this.resetCamera(picture);
-        if (!picture.camera) this.fit(picture.box);
+        if (!picture.camera) this.fit();
     }
 
     // After a change of the free part: unless a hand or a script has chosen the view.
     fitAgain() {
-        if (!this.touched && this.picture?.box && !this.picture.camera) this.fit(this.picture.box);
+        if (!this.touched && this.picture?.box && !this.picture.camera) this.fit();
         this.ask();
     }
 
-    fit(box) {
-        const cells = this.cells(), cell = cells[0];
-        const boxes = cells.length > 1 ? this.picture.meshes.map(mesh => mesh.box) : [box];
-        const { left, right: beside, bottom } = cells.length > 1 ? { left: 0, right: 0, bottom: 0 } : this.covered();
-        const high = Math.max(this.canvas.clientHeight * cell.h - bottom, 1), aspect = (this.canvas.clientWidth * cell.w - left - beside) / high;
-        const forward = this.toward, right = unit(cross(this.up, forward)), over = cross(forward, right);
-        const half = Math.tan(this.fov / 2) * high / Math.max(this.canvas.clientHeight * cell.h, 1);
-        this.target = box.low.map((x, k) => 0.5 * (x + box.high[k]));
-        this.distance = 1e-6;
-        for (const one of boxes) {
-            const center = cells.length > 1 ? one.low.map((x, k) => 0.5 * (x + one.high[k])) : this.target;
-            for (let i = 0; i < 8; ++i) {
-                const corner = minus([0, 1, 2].map(k => (i >> k & 1 ? one.high : one.low)[k]), center);
-                const reach = Math.max(Math.abs(dot(corner, right)) / (half * aspect), Math.abs(dot(corner, over)) / half);
-                this.distance = Math.max(this.distance, dot(corner, forward) + 1.12 * reach);
+    // Points that a view frames, of some meshes and of hair, at most about 20,000.
+    framedPoints(meshes, strands) {
+        const lists = [...meshes.map(one => ({ values: one.positions, width: 3, place: one.place })), ...strands.map(one => ({ values: one.points.subarray(4, one.points.length - 8), width: 4 }))];
+        const stride = Math.ceil(lists.reduce((sum, { values, width }) => sum + values.length / width, 0) / 20000) || 1, points = [];
+        for (const { values, width, place } of lists) {
+            for (let i = 0; i + 2 < values.length; i += width * stride) {
+                const p = [values[i], values[i + 1], values[i + 2]];
+                points.push(place ? [0, 1, 2].map(k => place[k] * p[0] + place[4 + k] * p[1] + place[8 + k] * p[2] + place[12 + k]) : p);
             }
         }
+        return points;
+    }
+
+    // The nearest camera along this direction that sees all points, as frame_points in kernel/sketch/camera.cpp.
+    fitted(points, half, aspect) {
+        const right = unit(cross(this.up, this.toward)), over = cross(this.toward, right), used = 0.88, tangents = [used * half * aspect, used * half];
+        const high = [-Infinity, -Infinity], low = [-Infinity, -Infinity];
+        let nearest = 1e-6;
+        for (const p of points) {
+            const depth = -dot(p, this.toward), at = [dot(p, right), dot(p, over)];
+            for (let k = 0; k < 2; ++k) {
+                high[k] = Math.max(high[k], at[k] - tangents[k] * depth);
+                low[k] = Math.max(low[k], -at[k] - tangents[k] * depth);
+            }
+            nearest = Math.max(nearest, 1e-6 - depth);
+        }
+        const away = Math.max(nearest, ...[0, 1].map(k => 0.5 * (high[k] + low[k]) / tangents[k]));
+        const middle = plus(right.map(x => 0.5 * (high[0] - low[0]) * x), over, 0.5 * (high[1] - low[1]));
+        // The target lies as deep as the middle of the box, so that it is turned about that.
+        const { low: a, high: b } = this.picture.box, deep = -dot(a.map((x, k) => 0.5 * (x + b[k])), this.toward);
+        return { target: plus(middle, this.toward, -deep), distance: Math.max(away + deep, 1e-6) };
+    }
+
+    fit() {
+        const cells = this.cells(), [cell] = cells, isRow = cells.length > 1, { picture, canvas } = this;
+        const { left, right: beside, bottom } = isRow ? { left: 0, right: 0, bottom: 0 } : this.covered();
+        const high = Math.max(canvas.clientHeight * cell.h - bottom, 1), aspect = Math.max(canvas.clientWidth * cell.w - left - beside, 1) / high;
+        const half = Math.tan(this.fov / 2) * high / Math.max(canvas.clientHeight * cell.h, 1);
+        const hair = isRow ? [] : picture.strands;
+        const fits = isRow && picture.fit === 'each' ? picture.meshes.map(mesh => this.fitted(this.framedPoints([mesh], []), half, aspect))
+            : [this.fitted(this.framedPoints(picture.meshes, hair), half, aspect)];
+        Object.assign(this, fits[0]);
+        this.fits = fits;
+    }
+
+    // The camera of a cell: each has its own share of what the hand does, or all have the same.
+    cameraOf(place) {
+        const first = this.fits?.[0], own = this.fits?.[place];
+        if (!own || own === first) return { target: this.target, distance: this.distance };
+        return { target: plus(own.target, minus(this.target, first.target)), distance: own.distance * this.distance / first.distance };
     }
 
     orbit(dx, dy) {
@@ -333,7 +415,7 @@ export class View {
     listen() {
         const { canvas, fingers } = this;
         canvas.addEventListener('contextmenu', event => event.preventDefault());
-        canvas.addEventListener('dblclick', () => { if (this.picture?.box && !this.hand?.isActive) { this.fit(this.picture.box); this.ask(); } });
+        canvas.addEventListener('dblclick', () => { if (this.picture?.box && !this.hand?.isActive) { this.fit(); this.ask(); } });
         canvas.addEventListener('wheel', event => { event.preventDefault(); if (!this.hand?.wheel(event)) this.zoom(Math.exp(0.0012 * event.deltaY)); }, { passive: false });
         canvas.addEventListener('pointerdown', event => {
             try { canvas.setPointerCapture(event.pointerId); } catch { /* A pointer that has gone already. */ }
@@ -416,12 +498,18 @@ export class View {
     }
 
     draw() {
-        const gl = this.gl, { width, height, scale } = this.size();
+        const gl = this.gl, { width, height, scale } = this.size(), start = performance.now();
+        this.isQuick &&= this.moving;
         gl.viewport(0, 0, width, height);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         const cells = this.cells();
         for (const cell of cells) this.drawCell(cell, cells.length > 1, width, height, scale);
+        // Where frames are slow, a view that moves has no occlusion. A pixel is read, so that the time is that of the frame.
+        if (this.moving && !this.isQuick) {
+            gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+            this.isQuick = performance.now() - start > 40;
+        }
         this.frames = (this.frames || 0) + 1;
         this.changed(cells);
     }
@@ -429,24 +517,28 @@ export class View {
     drawCell(cell, centred, width, height, scale) {
         const gl = this.gl, w = Math.round(cell.w * width), h = Math.round(cell.h * height);
         gl.viewport(Math.round(cell.x * width), Math.round(cell.y * height), w, h);
-        const target = centred && cell.box ? plus(cell.box.low.map((x, k) => 0.5 * (x + cell.box.high[k])),
-            minus(this.target, this.picture.box.low.map((x, k) => 0.5 * (x + this.picture.box.high[k])))) : this.target;
-        const view = lookAt(plus(target, this.toward, this.distance), target, this.up);
+        const { target, distance } = this.cameraOf(cell.place);
+        const view = lookAt(plus(target, this.toward, distance), target, this.up);
         const reach = cell.box ? length(minus(cell.box.high, cell.box.low)) + length(minus(target, cell.box.low)) : 1;
-        const near = Math.max(this.distance - reach, 0.002 * this.distance);
-        const projection = perspective(this.fov, w / h, near, this.distance + reach);
+        const near = Math.max(distance - reach, 0.002 * distance);
+        const projection = perspective(this.fov, w / h, near, distance + reach);
         // The middle of the picture is that of its free part.
         if (!centred) {
             const { right, down } = this.shift();
             projection[8] += right / Math.max(this.canvas.clientWidth, 1);
             projection[9] -= down / Math.max(this.canvas.clientHeight, 1);
         }
+        const half = Math.tan(this.fov / 2);
+        const openness = this.occlusion.compute(this.isQuick ? [] : cell.meshes, { view, projection, extent: [half * w / h, half], size: [w / scale, h / scale].map(x => Math.min(Math.round(x), 2048)), depth: p => dot(minus(plus(target, this.toward, distance), p), this.toward) });
+        gl.viewport(Math.round(cell.x * width), Math.round(cell.y * height), w, h);
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
-        const shared = { view, projection, light, h };
+        const shared = { view, projection, light, h, openness, corner: [Math.round(cell.x * width), Math.round(cell.y * height)], size: [w, h] };
         this.whole = centred ? null : times(projection, view);
         this.drawMeshes(cell.meshes, shared, scale);
         if (cell.hair) this.drawStrands(shared);
         if (cell.hair && this.drawn.lines) this.drawLines(shared, w, h, scale);
+        for (const { balls, place } of cell.meshes) if (balls) this.drawBalls(balls, place, shared, w, h, scale);
+        if (cell.hair && this.drawn.balls) this.drawBalls(this.drawn.balls, identity, shared, w, h, scale);
         gl.bindVertexArray(null);
     }
 
@@ -469,6 +561,14 @@ export class View {
         this.useLight(this.mesh, shared, 1, shared.light?.onHead);
         gl.uniform1f(places.u_wire, this.settings.wire || this.picture?.wire ? scale : 0);
         gl.uniform1i(places.u_flat, this.settings.flat || this.picture?.flat ? 1 : 0);
+        const { openness, corner, size } = shared, share = openness.size.map((x, k) => x / size[k]);
+        this.useTexture(places.u_openness, 1, openness.texture);
+        this.useTexture(places.u_colormap, 2, this.colormap);
+        gl.activeTexture(gl.TEXTURE3);
+        gl.bindTexture(gl.TEXTURE_3D, shared.light?.tinted || this.noTint);
+        gl.uniform1i(places.u_tint, 3);
+        gl.uniform2fv(places.u_openness_scale, share);
+        gl.uniform2fv(places.u_openness_offset, share.map((x, k) => -x * corner[k]));
         for (const mesh of meshes) {
             gl.uniformMatrix4fv(places.u_place, false, mesh.place);
             gl.bindVertexArray(mesh.array);
@@ -476,6 +576,13 @@ export class View {
             gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
         }
         gl.disable(gl.POLYGON_OFFSET_FILL);
+    }
+
+    useTexture(place, unit, texture) {
+        const gl = this.gl;
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.uniform1i(place, unit);
     }
 
     // While the view moves fewer and wider strands are drawn, as far as frames are slow.
@@ -489,7 +596,7 @@ export class View {
             this.useLight(this.hair, shared, strands.look.shadow);
             gl.uniform4fv(places.u_lobes, strands.look.lobes);
             gl.uniform1f(places.u_wide, 1 / Math.sqrt(level));
-            gl.uniform1f(places.u_thinnest, 0.42 * 2 * Math.tan(this.fov / 2) / shared.h);
+            gl.uniform1f(places.u_thinnest, 0.25 * 2 * Math.tan(this.fov / 2) / shared.h);
             gl.bindVertexArray(strands.array);
             gl.drawElements(gl.TRIANGLES, strands.ends[Math.floor(level * (strands.ends.length - 1))], gl.UNSIGNED_INT, 0);
         }
@@ -507,9 +614,22 @@ export class View {
         gl.uniformMatrix4fv(places.u_view, false, shared.view);
         gl.uniformMatrix4fv(places.u_projection, false, shared.projection);
         gl.uniform2f(places.u_pixel, 2 / w, 2 / h);
-        gl.uniform1f(places.u_width, 3 * scale);
+        gl.uniform1f(places.u_width, 4 * scale);
         gl.bindVertexArray(lines.array);
         gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+    }
+
+    drawBalls(balls, place, shared, w, h, scale) {
+        const gl = this.gl, { program, places } = this.ball;
+        gl.useProgram(program);
+        gl.uniformMatrix4fv(places.u_view, false, shared.view);
+        gl.uniformMatrix4fv(places.u_projection, false, shared.projection);
+        gl.uniformMatrix4fv(places.u_place, false, place);
+        gl.uniform2f(places.u_pixel, 2 / w, 2 / h);
+        gl.uniform1f(places.u_radius, 6 * scale);
+        gl.uniform1f(places.u_depth, 2 * Math.tan(this.fov / 2) / h);
+        gl.bindVertexArray(balls.array);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, balls.count);
     }
 
     // The picture as it is seen, as PNG with a background.

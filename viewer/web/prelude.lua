@@ -5,7 +5,7 @@ local lissom = require "lissom"
 
 package.path = "./?.lua;/lissom/scripts/?.lua;/lissom/?.lua"
 
-local playground = { pictures = {} }
+local playground = { pictures = {}, finished = {} }
 
 local function kind_of(value)
     -- Objects of the library show the name of their kind in place of a metatable.
@@ -25,26 +25,36 @@ local function camera_table(camera)
     return { eye = camera:eye(), target = camera:target(), up = camera:up(), fov = camera:fov() }
 end
 
-local function region_names(options, mesh)
-    if options.regions == true then return mesh:regions() end
-    return listed(options.regions or nil)
-end
-
--- Parts of a mesh in colours: `region` a name or a region, whose vertices are told.
-local function part(mesh, region, color)
-    if type(region) == "string" then
-        local found = lissom.try(function() return mesh:region(region) end)
-        if not found then return nil end
-        return { region = found, color = color, name = region }
+-- The named regions that are shown, of all meshes, in the order of their colours.
+local function region_names(options, meshes)
+    local wanted = type(options.regions) == "table" and options.regions or nil
+    local seen, names = {}, {}
+    for _, mesh in ipairs(options.regions and meshes or {}) do
+        for _, name in ipairs(mesh:regions()) do seen[name] = true end
     end
-    return { region = region, color = color }
+    for _, name in ipairs(wanted or {}) do seen[name] = seen[name] and "wanted" end
+    for name, mark in pairs(seen) do
+        if not wanted or mark == "wanted" then names[#names + 1] = name end
+    end
+    table.sort(names)
+    return names
 end
 
-local function parts_of(options, mesh)
+-- Parts of a mesh in colours, small ones over large ones; names are told.
+local function parts_of(options, mesh, names)
     local parts = {}
-    local function add(region, color) parts[#parts + 1] = part(mesh, region, color) end
-    local names = region_names(options, mesh)
-    for i, name in ipairs(names) do add(name, i) end
+    for i, name in ipairs(names) do
+        local region = lissom.try(mesh.region, mesh, name)
+        if region then parts[#parts + 1] = { region = region, color = i, name = name } end
+    end
+    table.sort(parts, function(a, b)
+        if #a.region == #b.region then return a.name < b.name end
+        return #a.region > #b.region
+    end)
+    local function add(region, color)
+        if type(region) == "string" then region = lissom.try(mesh.region, mesh, region) end
+        if region then parts[#parts + 1] = { region = region, color = color } end
+    end
     if options.region ~= nil then add(options.region, "region") end
     for _, handle in ipairs(listed(options.handles)) do add(handle, "handle") end
     return parts
@@ -60,14 +70,14 @@ end
 
 -- Meshes and strands are copied: the script may go on to change them.
 local function drawn_meshes(options, meshes)
-    local drawn = {}
+    local drawn, names = {}, region_names(options, meshes)
     for i, mesh in ipairs(meshes) do
         local color = type(options.color) == "table" and options.color[i] or options.color
         if type(color) == "table" then color = nil end
         local copy = mesh:copy()
         drawn[i] = {
             mesh = copy, color = color, offset = options.offsets and options.offsets[i],
-            parts = parts_of(options, copy), scalars = scalars_of(options),
+            parts = parts_of(options, copy, names), scalars = scalars_of(options),
             caption = options.captions and options.captions[i],
         }
     end
@@ -120,6 +130,20 @@ local function add_scene(picture, scene)
     end
 end
 
+-- The points of a polyline, with the first one again at the end of a closed one.
+local function corners_of(line)
+    local numbers, points = line:points(), {}
+    if type(numbers[1]) == "table" then
+        for i, point in ipairs(numbers) do points[i] = point end
+    else
+        for i = 1, #numbers, 3 do
+            points[#points + 1] = { numbers[i], numbers[i + 1], numbers[i + 2] }
+        end
+    end
+    if line:is_closed() and #points > 2 then points[#points + 1] = points[1] end
+    return points
+end
+
 local adders = {
     ["lissom.Mesh"] = function(picture, mesh, style, transform)
         local color = type(style.color) == "string" and style.color or nil
@@ -138,6 +162,7 @@ local adders = {
         add_value(picture, style:head(), nil, transform)
     end,
     ["lissom.Path"] = function(picture, path) picture.lines[#picture.lines + 1] = path:points() end,
+    ["lissom.Polyline"] = function(picture, line) picture.lines[#picture.lines + 1] = corners_of(line) end,
 }
 
 function add_value(picture, value, style, transform, depth)
@@ -170,6 +195,17 @@ local function returned_picture(...)
     return picture
 end
 
+-- Presets finish their hair by scripts/hairdo.lua: a hand goes on with their styles.
+function package.preload.hairdo(name)
+    local hairdo = assert(loadfile("/lissom/scripts/hairdo.lua"))(name)
+    local finish = hairdo.finish
+    function hairdo.finish(style, ...)
+        table.insert(playground.finished, style)
+        return finish(style, ...)
+    end
+    return hairdo
+end
+
 -- Whether the script has returned styles alone, for tools: pictures of their hair are drawn already.
 local function is_only_styles(picture)
     return #picture.styles > 0 and #picture.strands == 0 and not picture.scene
@@ -181,6 +217,7 @@ function playground.shown(...)
     playground.pictures = {}
     local returned = returned_picture(...)
     playground.styles = returned and returned.styles or {}
+    if #playground.styles == 0 then playground.styles = playground.finished end
     if returned and not (#pictures > 0 and is_only_styles(returned)) then
         table.insert(pictures, 1, returned)
     end
@@ -189,7 +226,7 @@ function playground.shown(...)
 end
 
 function playground.run(file)
-    playground.pictures = {}
+    playground.pictures, playground.finished = {}, {}
     local chunk, problem = loadfile(file)
     if not chunk then error(problem, 0) end
     return playground.shown(chunk())

@@ -5,7 +5,7 @@
 //     { kind: 'hand', id, at, inputs }  ->  log*, progress*, { kind: 'hand', id, picture, marks, tool, ... }: hand.lua
 import createLissom from './lissom.mjs';
 import { hairLight } from './hair_light.js';
-import { rgb, scaled, toByte } from './colors.js';
+import { rgb, toLinear } from './colors.js';
 
 const lists = ['positions', 'normals', 'vertices', 'edges', 'colors', 'points', 'offsets', 'widths'];
 const kFloat = Float32Array, kInt = Uint32Array, kByte = Uint8Array;
@@ -95,40 +95,104 @@ function scalarNumbers(drawn, count) {
     return values.length === count ? values : null;
 }
 
-// A colour of each vertex: the mesh's own, its numbers', those of its parts above.
+// A colour of each vertex: the mesh's own, or the one that it is given.
 function vertexColors(drawn, picture, count, own) {
     const colors = new kByte(3 * count), base = rgb(drawn.color);
     const width = own.length / count;
     for (let v = 0; v < count; ++v) {
         const color = own.length && picture.vertex_colors !== false && !(own[width * v] !== own[width * v])
-            ? [0, 1, 2].map(k => toByte(own[width * v + k])) : base;
+            ? [0, 1, 2].map(k => Math.round(255 * Math.min(Math.max(own[width * v + k], 0), 1))) : base;
         colors.set(color, 3 * v);
     }
-    const numbers = scalarNumbers(drawn, count);
-    let range = null;
-    if (numbers) {
-        const finite = Array.from(numbers).filter(Number.isFinite);
-        range = picture.range || [finite.reduce((a, b) => Math.min(a, b), Infinity), finite.reduce((a, b) => Math.max(a, b), -Infinity)];
-        for (let v = 0; v < count; ++v) colors.set(scaled((numbers[v] - range[0]) / (range[1] - range[0] || 1)), 3 * v);
-    }
-    for (const part of drawn.parts || []) {
-        if (!call('page_read_region', ['number'], [part.region.object])) continue;
-        const color = rgb(part.color);
-        for (const v of list('vertices', kInt)) colors.set(color, 3 * v);
-    }
-    return { colors, range };
+    return colors;
 }
 
-// Colours of corners, of the mesh whose lists were read last.
-function cornerColors(drawn, picture, vertices) {
+function rangeOf(numbers, picture) {
+    if (picture.range) return picture.range;
+    const finite = Array.from(numbers).filter(Number.isFinite);
+    return [finite.reduce((a, b) => Math.min(a, b), Infinity), finite.reduce((a, b) => Math.max(a, b), -Infinity)];
+}
+
+// The first triangle of each face, and the end: a face of n sides has n - 2 triangles, which have n of its edges.
+function facesOf(edges) {
+    const starts = [];
+    for (let t = 0; 3 * t < edges.length;) {
+        starts.push(t);
+        for (let count = 1, sides = 0; 3 * t < edges.length; ++count) {
+            sides += edges[3 * t] + edges[3 * t + 1] + edges[3 * t + 2];
+            ++t;
+            if (sides >= count + 2) break;
+        }
+    }
+    return [...starts, edges.length / 3];
+}
+
+// Paints faces: `paint(face, its first corner, the end of them)` for those with all vertices in `has`.
+function forFaces(starts, vertices, has, paint) {
+    for (let f = 0; f + 1 < starts.length; ++f) {
+        let all = true;
+        for (let c = 3 * starts[f]; all && c < 3 * starts[f + 1]; ++c) all = has(vertices[c]);
+        if (all) paint(3 * starts[f], 3 * starts[f + 1]);
+    }
+}
+
+// The parts of a mesh: their faces, or without `edges` the surface around their vertices.
+function paintParts(parts, colors, vertices, edges, flags) {
+    const starts = edges && parts.length ? facesOf(edges) : null;
+    for (const part of parts) {
+        if (!call('page_read_region', ['number'], [part.region.object])) continue;
+        const color = rgb(part.color), inside = new Set(list('vertices', kInt)), has = v => inside.has(v);
+        const put = c => { colors.set(color, 4 * c); if (flags) flags[c] &= 7; };
+        if (starts) forFaces(starts, vertices, has, (c, end) => { for (; c < end; ++c) put(c); });
+        else for (let c = 0; c < vertices.length; ++c) if (has(vertices[c])) put(c);
+    }
+}
+
+// Places of the vertices of handles and parts that no painted face shows, as balls.
+function looseVertices(parts, vertices, positions, edges) {
+    const starts = parts.length ? facesOf(edges) : [], balls = [];
+    for (const part of parts) {
+        if (!call('page_read_region', ['number'], [part.region.object])) continue;
+        const inside = new Set(list('vertices', kInt)), shown = new Set(), beside = new Set(), places = new Map();
+        forFaces(starts, vertices, v => inside.has(v), (c, end) => { for (; c < end; ++c) shown.add(vertices[c]); });
+        for (let c = 0; c < vertices.length; ++c) {
+            const t = c - c % 3, v = vertices[c];
+            if (!inside.has(v)) continue;
+            places.set(v, positions.subarray(3 * c, 3 * c + 3));
+            if ([0, 1, 2].some(k => shown.has(vertices[t + k]))) beside.add(v);
+        }
+        for (const [v, place] of places) if (!beside.has(v)) balls.push({ color: part.color, place: Array.from(place) });
+    }
+    return balls;
+}
+
+// Numbers as places on the scale, whose colours the shader has; faces without a number are grey.
+function paintNumbers(numbers, range, colors, vertices, edges, flags) {
+    const starts = facesOf(edges), gray = rgb('noValue');
+    for (let c = 0; c < vertices.length; ++c) colors.set(gray, 4 * c);
+    forFaces(starts, vertices, v => Number.isFinite(numbers[v]), (c, end) => {
+        for (; c < end; ++c) {
+            colors[4 * c + 3] = 255 * Math.min(Math.max((numbers[vertices[c]] - range[0]) / (range[1] - range[0] || 1), 0), 1) + 0.5;
+            flags[c] |= 8;
+        }
+    });
+}
+
+// Colours of corners, of the mesh whose lists were read last. `edges` and `flags`: of a mesh that is read as a whole.
+function cornerColors(drawn, picture, vertices, edges = null, flags = null) {
     const own = list('colors', kFloat), stored = lissom._page_vertex_count(drawn.mesh.object);
     let count = stored;
     for (const v of vertices) if (v >= count) count = v + 1;
-    const { colors: perVertex, range } = vertexColors(drawn, picture, count, own), colors = new kByte(4 * vertices.length);
+    const perVertex = vertexColors(drawn, picture, count, own), colors = new kByte(4 * vertices.length);
     for (let c = 0; c < vertices.length; ++c) {
         const v = 3 * vertices[c];
         colors[4 * c] = perVertex[v]; colors[4 * c + 1] = perVertex[v + 1]; colors[4 * c + 2] = perVertex[v + 2];
     }
+    const parts = drawn.parts || [], isHandle = part => part.color === 'handle';
+    paintParts(parts.filter(part => !isHandle(part)), colors, vertices, edges, flags);
+    const numbers = edges && scalarNumbers(drawn, count), range = numbers ? rangeOf(numbers, picture) : null;
+    if (numbers) paintNumbers(numbers, range, colors, vertices, edges, flags);
+    paintParts(parts.filter(isHandle), colors, vertices, edges, flags);
     return { colors, range };
 }
 
@@ -149,9 +213,12 @@ function meshOf(drawn, picture, creaseFree) {
     const id = drawn.mesh.object;
     ask('page_read_mesh', ['number', 'number'], [id, creaseOf(picture, creaseFree)]);
     const positions = list('positions', kFloat), normals = list('normals', kFloat), place = placeOf(drawn);
-    return { object: id, positions, normals, flags: edgeFlags(list('edges', kByte)), place, caption: drawn.caption, box: boxOf(positions, place),
+    const edges = list('edges', kByte), flags = edgeFlags(edges);
+    const vertices = list('vertices', kInt), painted = cornerColors(drawn, picture, vertices, edges, flags);
+    const balls = looseVertices((drawn.parts || []).filter(part => part.color !== 'region'), vertices, positions, edges);
+    return { object: id, positions, normals, flags, balls, place, caption: drawn.caption, box: boxOf(positions, place),
         legend: (drawn.parts || []).filter(part => part.name).map(part => ({ name: part.name, color: part.color })),
-        ...cornerColors(drawn, picture, list('vertices', kInt)), ...countsOf(id) };
+        ...painted, ...countsOf(id) };
 }
 
 function boundaryLines(id) {
@@ -177,13 +244,13 @@ function chance(n) {
 }
 
 // Points in the mesh's unit, with half a width, and below zero at the last of a strand; one before and after all.
-function strandsOf(strands, picture, head) {
+function strandsOf(strands, picture, head, lit = null) {
     const id = strands.object, look = picture.hair || {};
     ask('page_read_strands', ['number'], [id]);
     const places = list('points', kFloat), offsets = list('offsets', kInt), widths = list('widths', kFloat), own = list('colors', kFloat);
     const scale = 1 / (look.unit || (head ? lissom._page_root_unit(id, head.object) : 0) || 1);
     const count = places.length / 3, points = new Float32Array(4 * (count + 3)), colors = new kByte(4 * (count + 3));
-    const base = rgb(look.color || '#5a3c25').map(x => Math.pow(x / 255, 2.2));
+    const base = rgb(look.color || '#5a3c25').map(toLinear);
     const [atRoot, atTip] = [look.root_tone ?? 0.72, look.tip_tone ?? 1.18], roots = [0, 0, 0];
     for (let i = 0; i < places.length; ++i) places[i] *= scale;
     for (let p = 0; p < count; ++p) widths[p] *= scale;
@@ -206,7 +273,7 @@ function strandsOf(strands, picture, head) {
     }
     points.fill(-1, 4 * (count + 1));
     const starts = Array.from({ length: 65 }, (_, i) => offsets[Math.floor((offsets.length - 1) * i / 64)]);
-    const light = hairLight(places, offsets, widths, head?.positions);
+    const light = lit || hairLight(places, offsets, widths, head?.positions, scale);
     if (light) light.color = roots;
     return { object: id, points, colors, starts, light, box: boxOf(places), count: offsets.length - 1,
         look: { shadow: Math.min(look.shadow ?? 1, 1),
@@ -220,14 +287,15 @@ function drawnPicture(picture) {
     if (picture.boundaries) for (const mesh of picture.meshes) lines.push(...boundaryLines(mesh.mesh.object));
     const strands = picture.strands.map(one => strandsOf(one, picture, meshes[0]));
     const box = [...meshes, ...strands].map(one => one.box).reduce(joined, null);
-    const { name, wire, flat, columns, view, up, camera } = picture;
-    return { name, wire, flat, columns, view, up, camera, meshes, strands, lines, box };
+    const { name, wire, flat, columns, fit, view, up, camera } = picture;
+    const balls = rowOf(picture.points).filter(Array.isArray).map(place => ({ color: 'handle', place }));
+    return { name, wire, flat, columns, fit, view, up, camera, meshes, strands, lines, balls, box };
 }
 
 function buffersOf(picture) {
     const given = list => list.filter(one => !one.same);
     return [...given(picture.meshes).flatMap(m => [m.positions, m.normals, m.colors, m.flags]),
-        ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].filter(Boolean).map(list => list.buffer);
+        ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead, s.light.tint]) : [])])].filter(Boolean).map(list => list.buffer);
 }
 
 // ---- Tools: the picture after inputs of a hand; the page has its parts of the same key already
@@ -235,7 +303,7 @@ function buffersOf(picture) {
 // Keys that the page has, numbers of objects, and corners of meshes by their numbers; the head below hair.
 const held = {};
 function forgetHand() {
-    Object.assign(held, { isLoaded: false, keys: new Map(), objects: new Map(), corners: new Map(), head: null });
+    Object.assign(held, { isLoaded: false, keys: new Map(), objects: new Map(), corners: new Map(), head: null, lights: new Map(), isDown: false });
 }
 forgetHand();
 
@@ -298,11 +366,20 @@ function unlessKnown(object, key, read) {
 // Lists that Lua leaves empty may come as tables of names.
 const rowOf = value => (Array.isArray(value) ? value : []);
 
+// While a button is down the light in hair stays as it was: it takes longer than the hair itself.
+function handStrands(strands, picture, head, place) {
+    const lit = held.isDown ? held.lights.get(place) : null;
+    const copied = light => light && { ...light, texels: light.texels.slice(), onHead: light.onHead.slice(), tint: light.tint.slice() };
+    const made = strandsOf(strands, picture, head && headOf(head), copied(lit));
+    if (!lit) held.lights.set(place, copied(made.light));
+    return made;
+}
+
 function handPicture(picture) {
     const all = rowOf(picture.meshes), hair = rowOf(picture.strands);
     const isSmooth = hair.length > 0 && picture.crease === undefined;
     const meshes = all.map(one => ({ ...unlessKnown(one.mesh.object, one.key, () => changedMesh(one, picture, isSmooth)), raised: one.raised }));
-    const strands = hair.map(one => unlessKnown(one.strands.object, one.key, () => strandsOf(one.strands, picture, all[0] && headOf(all[0]))));
+    const strands = hair.map((one, i) => unlessKnown(one.strands.object, one.key, () => handStrands(one.strands, picture, all[0], i)));
     const lines = rowOf(picture.lines).map(points => ({ color: 'orange', points: points.flat() }));
     return { meshes, strands, lines, wire: picture.wire, flat: picture.flat };
 }
@@ -320,6 +397,7 @@ function hand(message) {
         }
         if (message.fresh) forgetPicture();
         const [{ picture, ...seen }] = runLoaded(JSON.stringify([message.at + 1, message.inputs]));
+        held.isDown = seen.held;
         Object.assign(reply, seen, { picture: handPicture(picture), keys: [...rowOf(picture.meshes), ...rowOf(picture.strands)].map(one => one.key.split('|')[0]) });
         releaseAllBut(objectsIn(picture));
         buffers = [...buffersOf(reply.picture)];
