@@ -47,6 +47,11 @@ OpenedTarget open_target(const Mesh& target, std::span<const Index> vertices,
                     "the target has no vertex under the part; subdivide the target there, or make "
                     "the part larger");
     }
+    if (std::none_of(contour.value.begin(), contour.value.end(),
+                     [](double x) { return x < 0.0; })) {
+        throw Error(ErrorCode::boundary_conflict,
+                    "the part covers all of the surface that it is put on; make it smaller");
+    }
     Cut parts = cut(target, contour, {CutLoops::all, 0.25}, context);
     if (parts.lines.size() != 1 || !parts.lines.front().rest.closed()) {
         throw Error(ErrorCode::boundary_conflict,
