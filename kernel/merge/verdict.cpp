@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,8 @@ constexpr double kThorns = 0.22;
 // A part that keeps less of its volume has visibly caved in. Of 62 merges of real models those that
 // look right keep .45 and more: heads on flat or long boundaries lose the most.
 constexpr double kVolumeKept = 0.4;
+// A part that leaves less of the target's area replaces it.
+constexpr double kAreaKept = 0.5;
 // Length of sharp edges that a paste may take, and the depth of a bite at one place, in radii of
 // the seam: smoothing takes less at an edge that a seam crosses.
 constexpr double kBitten = 0.3, kBittenDepth = 0.15;
@@ -319,7 +322,16 @@ void judge_volume(const MergeReport& report, Index j, const OpenOptions& open, R
     const BandQuality& band = report.joins[at(j)].band;
     for (const auto& [side, kept] :
          {std::pair("source", band.source_volume), std::pair("target", band.target_volume)}) {
-        if (!(kept < kVolumeKept)) continue;
+        const bool covered = is_paste(report) && side == std::string_view("target");
+        if (!(kept < (covered ? kAreaKept : kVolumeKept))) continue;
+        if (covered) {
+            reasons.push_back(
+                {MergeFault::volume, j, kept, kAreaKept,
+                 text_of("the part takes the place of %.0f %% of the target's surface",
+                         100.0 * (1.0 - kept)),
+                 "make the part smaller, or mark a smaller region of the source"});
+            continue;
+        }
         reasons.push_back(
             {MergeFault::volume, j, kept, kVolumeKept,
              kept > 0.0 ? text_of("the %s lost %.0f %% of its volume%s", side, 100.0 * (1.0 - kept),

@@ -47,8 +47,9 @@ Parameter sliding_pins_option() {
                         "The sphere that it slides on.")
                     .optional("another place")},
                "Vertices that slide on a place and are held there by forces square to it, in this "
-               "solve. Handles hold exactly; places that contradict each other are kept as nearly "
-               "as they can be.")
+               "solve: at most 512, each with one place. Handles hold exactly; places that "
+               "contradict each other are kept as nearly as they can be. Not with `draft`, `stop` "
+               "or `avoid`.")
         .optional("none");
 }
 

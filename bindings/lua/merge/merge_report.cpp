@@ -565,7 +565,8 @@ std::vector<Record> merge_records() {
           {"number", "source_volume",
            "Volume between source and seam, over that of the source at rest at its scale: 1 if "
            "it was kept, negative if it turned inside out."},
-          {"number", "target_volume", "The same of the target; 1 of a paste."},
+          {"number", "target_volume",
+           "The same of the target; of a paste the share of the target's area that is left."},
           {"number", "radius", "Radius of the seam."}}},
         {"lissom.MergeReason",
          "Reason why a merge is not good. tostring gives text and remedy.",

@@ -70,7 +70,8 @@ class BoneHolds {
             Vec3 place = joints[i];
             if (i == 0) place += kEndSlack * (joints[1] - place);
             if (i + 1 == joints.size()) place += kEndSlack * (joints[i - 1] - place);
-            if (!is_inside(place)) outside.push_back(i);
+            // An end may stick out a little, and a long bone may leave a bend of the limb.
+            if (!is_inside(joints[i]) && !is_inside(place)) outside.push_back(i);
         }
         const bool has_inside = tree_.topology().is_closed() || outside.size() < joints.size();
         require(outside.empty() || !has_inside,
@@ -93,7 +94,8 @@ class BoneHolds {
                 "bone " + std::to_string(bone + 1) +
                     (options_.radius > 0.0
                          ? " has no part of the surface within its radius"
-                         : " is seen by no part of the surface: lay its joints within the limb"));
+                         : " is seen by no part of the surface: lay its joints within the limb, "
+                           "or fewer and longer bones"));
         return held;
     }
 

@@ -24,6 +24,10 @@ constexpr std::size_t kMostPins = 512;
 constexpr int kPinFits = 4;
 // Newton steps of the forces, in which the normals of spheres turn.
 constexpr int kPinSteps = 30;
+// Places as near as this, in parts of the surface's size, are reached.
+constexpr double kReached = 1e-9;
+// Coordinates beyond this have no squares.
+constexpr double kFarthestPlace = 1e100;
 // Added to the compliance, as a part of its mean: pins of vertices that move alike contradict each
 // other otherwise.
 constexpr double kPinSoftness = 1e-12;
@@ -31,7 +35,12 @@ constexpr double kPinSoftness = 1e-12;
 constexpr double kOnPlace = 1e-12;
 
 [[noreturn]] void refuse_pin(ErrorCode code, const char* message, Index vertex) {
-    throw Error(code, message, {ElementKind::vertex, 1, {vertex}});
+    Elements pinned{ElementKind::vertex, 1, {vertex}};
+    throw Error(code, "the pin of " + describe(pinned) + " " + message, std::move(pinned));
+}
+
+bool is_near_enough(const SlidingPin& pin) {
+    return pin.point.cwiseAbs().maxCoeff() <= kFarthestPlace && pin.radius <= kFarthestPlace;
 }
 
 void require_pins(const Deformer& deformer, std::span<const SlidingPin> pins) {
@@ -41,16 +50,18 @@ void require_pins(const Deformer& deformer, std::span<const SlidingPin> pins) {
         require_vertices(*deformer.region().topology(), std::vector<Index>{pin.vertex});
         require(pin.point.allFinite() && pin.direction.allFinite() && std::isfinite(pin.radius),
                 "the place of a pin is not finite", ErrorCode::not_finite);
+        require(is_near_enough(pin), "the place of a pin lies beyond 1e100", ErrorCode::not_finite);
         require(pin.on == PinPlace::sphere || pin.direction.norm() > 0.0,
                 "the plane or line of a pin has a direction without length");
         require(pin.on != PinPlace::sphere || pin.radius > 0.0,
                 "the distance of a pin from its point is above 0");
         if (!deformer.region().contains(pin.vertex)) {
-            refuse_pin(ErrorCode::handle_outside_region, "a pin lies outside the region",
-                       pin.vertex);
+            refuse_pin(ErrorCode::handle_outside_region,
+                       "lies outside the region; pin one of the region's vertices", pin.vertex);
         }
         if (!seen.insert(pin.vertex).second) {
-            refuse_pin(ErrorCode::handle_overlap, "a vertex is pinned twice", pin.vertex);
+            refuse_pin(ErrorCode::handle_overlap, "is given twice; a vertex has one place",
+                       pin.vertex);
         }
     }
 }
@@ -62,7 +73,8 @@ struct PinRows {
     double asked[2] = {0.0, 0.0};
 };
 
-PinRows rows_at(const SlidingPin& pin, const Vec3& place) {
+// `from` shows the side of a sphere.
+PinRows rows_at(const SlidingPin& pin, const Vec3& place, const Vec3& from) {
     const Vec3 off = place - pin.point;
     PinRows rows;
     if (pin.on == PinPlace::line) {
@@ -78,15 +90,16 @@ PinRows rows_at(const SlidingPin& pin, const Vec3& place) {
         rows.way[0] = pin.direction.normalized();
         rows.asked[0] = -off.dot(rows.way[0]);
     } else {
+        const Vec3 out = from - pin.point;
         // From the centre itself any way out is as good.
-        rows.way[0] = off.norm() > 0.0 ? off.normalized() : Vec3(Vec3::UnitY());
-        rows.asked[0] = pin.radius - off.norm();
+        rows.way[0] = out.norm() > 0.0 ? out.normalized() : Vec3(Vec3::UnitY());
+        rows.asked[0] = pin.radius - off.dot(rows.way[0]);
     }
     return rows;
 }
 
 double distance_to(const SlidingPin& pin, const Vec3& place) {
-    const PinRows rows = rows_at(pin, place);
+    const PinRows rows = rows_at(pin, place, place);
     return std::hypot(rows.asked[0], rows.count > 1 ? rows.asked[1] : 0.0);
 }
 
@@ -100,7 +113,7 @@ class PinForces {
             const Index v = displaced_.free_vertex(pin.vertex);
             if (v == kNoIndex) {
                 refuse_pin(ErrorCode::handle_overlap,
-                           "a handle or a constraint holds a vertex that a pin shall hold",
+                           "is held by a handle or a constraint; release it, or leave the pin out",
                            pin.vertex);
             }
             vertices_.push_back(v);
@@ -153,32 +166,54 @@ class PinForces {
         forces_.assign(vertices_.size(), Vec3::Zero());
     }
 
-    // Newton's method: in each step the forces along the present normals that bring all pins to
-    // their places, as far as these are planes there.
+    // Forces with normals of spheres towards the place of a pin without its own force, which is
+    // stable for small spheres; or, if many pins lie close together, with those at its place.
     void find_forces() {
+        double least = find_forces(true);
+        if (least <= kReached * size()) return;
+        const std::vector<Vec3> found = forces_;
+        if (find_forces(false) > least) forces_ = found;
+    }
+
+    // Newton's method: in each step the forces along the present normals that bring all pins to
+    // their places, as far as these are planes there. Returns the greatest distance left.
+    double find_forces(bool without_own) {
         std::vector<Vec3> moved(vertices_.size());
         forces_.assign(vertices_.size(), Vec3::Zero());
         for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = place(i, displaced_.turned());
         const std::vector<Vec3> start = moved;
         for (int step = 0; step < kPinSteps; ++step) {
-            const std::vector<PinRows> rows = rows_of(moved);
-            find_forces_along(rows, start);
+            find_forces_along(rows_of(moved, without_own), start);
             double change = 0.0;
             for (std::size_t i = 0; i < moved.size(); ++i) {
                 const Vec3 next = start[i] + pushed(i);
                 change = std::max(change, (next - moved[i]).norm());
                 moved[i] = next;
             }
-            double size = 0.0;
-            for (const Vec3& p : moved) size = std::max(size, (p - origin_).norm());
-            if (change <= 1e-15 * size) break;
+            if (change <= 1e-15 * size()) break;
         }
+        double off = 0.0;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            off = std::max(off, distance_to(pins_[i], moved[i]));
+        }
+        return off;
     }
 
-    std::vector<PinRows> rows_of(const std::vector<Vec3>& places) const {
+    // Greatest distance of a pin from the origin of the patch.
+    double size() const {
+        double size = 0.0;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            size = std::max(size, (place(i, displaced_.turned()) - origin_).norm());
+        }
+        return size;
+    }
+
+    std::vector<PinRows> rows_of(const std::vector<Vec3>& places, bool without_own) const {
         std::vector<PinRows> rows;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            rows.push_back(rows_at(pins_[i], places[i]));
+            Vec3 from = places[i];
+            if (without_own) from -= answers_[i][at(vertices_[i])] * forces_[i];
+            rows.push_back(rows_at(pins_[i], places[i], from));
             // From `start`: what is asked is counted from the present place.
             for (int k = 0; k < rows[i].count; ++k) {
                 rows[i].asked[k] += rows[i].way[k].dot(places[i]);

@@ -64,7 +64,8 @@ void require_dynamics(const HairDynamicsOptions& options) {
     require(lies_in(options.cohesion, 0.0, 1.0), "cohesion is from 0 to 1");
     require(lies_in(options.friction, 0.0, 10.0), "friction is from 0 to 10");
     require(lies_in(options.clearance, 0.0, 1.0), "clearance is from 0 to 1 metre");
-    require(options.substeps >= 4 && options.substeps <= 1000, "there are 4 to 1000 substeps");
+    require(options.substeps >= 16 && options.substeps <= 1000,
+            "there are 16 to 1000 substeps: stiff rods burst with fewer");
 }
 
 class HairDynamics::Simulation {

@@ -211,12 +211,15 @@ Strands StrandFollower::follow(const Mesh& head, const Context& context) {
                                          own.faces().offsets == other.faces().offsets &&
                                          own.faces().vertices == other.faces().vertices);
     if (!same) {
-        throw Error(ErrorCode::topology_mismatch,
-                    "the head has other faces than the one that the strands grew on (" +
-                        std::to_string(other.vertex_count()) + " vertices, not " +
-                        std::to_string(own.vertex_count()) +
-                        "); deform a copy of that head, or root the strands on the new one with "
-                        "hair:attach{ head = style }");
+        const bool other_size = own.vertex_count() != other.vertex_count();
+        throw Error(
+            ErrorCode::topology_mismatch,
+            "the head has other faces than the one that the strands grew on" +
+                (other_size ? " (" + std::to_string(other.vertex_count()) + " vertices, not " +
+                                  std::to_string(own.vertex_count()) + ")"
+                            : std::string(", or they turn the other way")) +
+                "; deform a copy of that head, or root the strands on the new one with "
+                "hair:attach{ head = style }");
     }
     Strands result = prepared_->strands;
     move(head.positions(), result.edit_points(), context);

@@ -51,7 +51,8 @@ struct BandQuality {
     double spike = 0.0, rest_spike = 0.0;
     /// Volume of the source and of the target between the surface and the middle of the seam, over
     /// that at rest at the source's scale: 1 for a part that kept it. It is 1 as well for a side
-    /// with less than the seam's own dome.
+    /// with less than the seam's own dome. Of the target of a paste: the share of its area that is
+    /// left.
     double source_volume = 1.0, target_volume = 1.0;
     /// Radius of the seam: the RMS distance of its points to their middle.
     double radius = 0.0;

@@ -1,6 +1,8 @@
 // The last steps of a paste: the part is deformed, the target opened, and both are sewn.
 #include <algorithm>
+#include <cstdio>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/mend.h"
 #include "kernel/merge/paste/laid_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
@@ -160,6 +163,32 @@ void warn_of_sides(const Mesh& target, const Mesh& source, std::vector<std::stri
                        " is inside out, so that the part grows inward; mesh:flip() turns it");
 }
 
+// A part whose boundary makes it much larger or smaller than it was asked to be.
+constexpr double kOtherSize = 1.5;
+
+void warn_of_size(double made, double asked, std::vector<std::string>& warnings) {
+    if (made < kOtherSize * asked && asked < kOtherSize * made) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the part is %.2g times the size that was asked for, since its boundary is; "
+                  "size = \"lock\" keeps the size",
+                  made / asked);
+    warnings.emplace_back(text);
+}
+
+double area_on(const Mesh& mesh, std::span<const Index> faces) {
+    double sum = 0.0;
+    for (const Index f : faces) sum += 0.5 * area_vector(mesh, f).norm();
+    return sum;
+}
+
+// The share of the target's area that the part leaves.
+double area_kept(const Mesh& target, const Sewn& sewn) {
+    const double before = area(target);
+    const double after = area_on(sewn.mesh, faces_on(sewn.side_of_face, SeamSide::target));
+    return before > 0.0 ? std::min(1.0, after / before) : 1.0;
+}
+
 // `sewn` is that of the whole target.
 MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart& pasted,
                          const Sewn& sewn, double crease, const PasteMergeOptions& options,
@@ -202,6 +231,7 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
                          {&laid.opened.mesh, {}, laid.opened.loop, true},
                          {&part.mesh, {}, part.loop}, join.scale, false, context);
         note_source(source_rest(source, part, context), report);
+        report.joins[0].band.target_volume = area_kept(target, sewn);
     }
     OpenOptions open;
     open.sought = sought;
@@ -512,6 +542,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.joined = state.regions.joined;
     report.near = pasted.laid.near;
     report.laid = trial.near;
+    if (!options.draft) warn_of_size(trial.scale, placed.placement.scale, done->report.warnings);
     report.feature =
         feature_distortion(trial.part(), trial.moved.mesh, report.scale, state.regions.feature);
     PasteResult result{{}, std::move(report)};

@@ -139,6 +139,12 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     band = good_band();
     band.target_volume = 0.35;
     CHECK(only_reason(report_with(band)).text.find("target lost") != std::string::npos);
+    // A paste has a crease, and takes the place of surface.
+    MergeReport covering = report_with(band);
+    covering.crease = 30.0 * kDegree;
+    CHECK(only_reason(covering).text.find("takes the place of 65 %") != std::string::npos);
+    covering.joins[0].band.target_volume = 0.55;
+    CHECK(verdict_of(covering, {}).good);
 
     band = good_band();
     band.bend = 40.0 * kDegree;

@@ -342,7 +342,7 @@ std::vector<Parameter> motion_fields(bool defaults) {
         own(meters("clearance", "Distance that hair stays off the body, if it did so at rest.")
                 .between(0, 1),
             d.clearance),
-        own(integer("substeps", "Steps in a thirtieth of a second.").between(4, 1000), d.substeps),
+        own(integer("substeps", "Steps in a thirtieth of a second.").between(16, 1000), d.substeps),
         own(integer("seed", "Seed of the gusts."), static_cast<int>(d.seed))};
 }
 

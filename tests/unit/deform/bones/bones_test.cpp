@@ -294,6 +294,7 @@ TEST_CASE("bones: joints outside a surface that has an inside are named") {
     for (const Mesh* mesh : {&bar, static_cast<const Mesh*>(&inside_out)}) {
         CHECK(laid(*mesh, {{0, -2, 0}, {2, 0, 0}, {0, 2, 0}}).find("joint 2") != std::string::npos);
         CHECK(laid(*mesh, {{0, -2, 0}, {0, 0, 0}, {0, 9, 0}}).find("joint 3") != std::string::npos);
+        CHECK(laid(*mesh, {{0, 0, 0}, {0, 10, 0}}).find("joint 2") != std::string::npos);
         CHECK(laid(*mesh, {{2, -2, 0}, {2, 2, 0}}).find("joint 1") != std::string::npos);
         // The ends may stick out.
         CHECK(bone_regions(*mesh, Region::all(mesh->shared_topology()),

@@ -68,6 +68,28 @@ TEST_CASE("sliding pins: vertices lie on their plane, line and sphere, and handl
     }
 }
 
+TEST_CASE("sliding pins: spheres are reached from afar, however small, and by neighbours at once") {
+    for (const double away : {0.1, 0.4}) {
+        for (const double radius : {0.1, 0.02, 0.01, 1e-6}) {
+            CAPTURE(away);
+            CAPTURE(radius);
+            SlidingBar bar;
+            std::vector<SlidingPin> pins;
+            for (const double y : {-0.2, 0.2}) {
+                const Index v = bar.near({0.5, y, 0.0});
+                const Vec3 center = bar.mesh.position(v) + Vec3(away, 0, 0);
+                pins.push_back({v, PinPlace::sphere, center, Vec3::UnitY(), radius});
+            }
+            REQUIRE(pins[0].vertex != pins[1].vertex);
+            CHECK(solve_with_pins(bar.deformer, pins) < 1e-9);
+            for (const SlidingPin& pin : pins) {
+                const double distance = (bar.position(pin.vertex) - pin.point).norm();
+                CHECK(std::abs(distance - radius) < 1e-9);
+            }
+        }
+    }
+}
+
 TEST_CASE("sliding pins: a vertex slides to where the surface wants it") {
     SlidingBar bar;
     const Index v = bar.near({-0.5, 0, 0.5});

@@ -315,6 +315,24 @@ TEST_CASE("paste: the size can be locked; nearest points and the thesis's way wo
     check_sound(literal.merge());
 }
 
+TEST_CASE("paste: a part that takes the place of its target, or is larger than asked, is told") {
+    const Mesh horn = horned_ball(), ball = make_sphere({1.0, 24, SphereKind::triangles});
+    const auto pasted_at = [&](double scale) {
+        Paste paste = horn_on_egg(horn, ball, {.at = {0, 1, 0}, .scale = scale});
+        return paste.merge();
+    };
+    const auto kept = [](const PasteResult& made) {
+        return made.merged.report.joins[0].band.target_volume;
+    };
+    CHECK(kept(pasted_at(0.2)) > 0.97);
+    CHECK(kept(pasted_at(0.4)) < kept(pasted_at(0.2)));
+    const PasteResult most = pasted_at(2.0);
+    CHECK(most.merged.mesh.topology().is_closed());
+    CHECK(kept(most) < 0.5);
+    CHECK_FALSE(most.merged.report.ok);
+    CHECK(most.merged.report.verdict.find("takes the place of") != std::string::npos);
+}
+
 TEST_CASE("paste: meshes that are both inside out are judged as the same right side out") {
     Mesh horn = horned_ball(), target = egg();
     const auto band_of = [&] {
