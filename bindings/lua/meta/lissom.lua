@@ -333,7 +333,7 @@
 ---@field sharpened number Length of the edges within half a radius that turn by more than 60 degrees, in radii of the seam, beyond that of the same side before: of the side that gained most.
 ---@field pinched number Sum of the widths, in radii of the seam, of the vertices of the source within half a radius that became thorns or pits: their neighbours slope away from them by 30 degrees more than at rest, to either side.
 ---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 if it was kept, negative if it turned inside out.
----@field target_volume number The same of the target; 1 of a paste.
+---@field target_volume number The same of the target; of a paste the share of the target's area that is left.
 ---@field radius number Radius of the seam.
 
 ---Reason why a merge is not good. tostring gives text and remedy.
@@ -1716,7 +1716,7 @@ function Deformer:preview() end
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 ---@field stop? "contact" "contact": goes from the poses of the last solve towards the present ones, and stays, with the handles, at the last pose before faces intersect that did not at rest. A drag that begins in contact goes on while no more do. Each sample of the way takes a frame. Default: goes all the way.
 ---@field avoid? boolean Pushes apart parts that would run through one another, in up to three rounds: both alike unless one is held. Handles hold exactly. It takes some frames if anything meets; see `contacts` for what is left. Default: false.
----@field pins? lissom.Deformer.SolveOptions.Pins[] Vertices that slide on a place and are held there by forces square to it, in this solve. Handles hold exactly; places that contradict each other are kept as nearly as they can be. Default: none.
+---@field pins? lissom.Deformer.SolveOptions.Pins[] Vertices that slide on a place and are held there by forces square to it, in this solve: at most 512, each with one place. Handles hold exactly; places that contradict each other are kept as nearly as they can be. Not with `draft`, `stop` or `avoid`. Default: none.
 
 ---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
