@@ -64,9 +64,11 @@ test("a part alone is that of a draft", function()
     expect.near(found.scale, report.paste.scale)
     expect.near(found.laid.energy, report.paste.laid.energy)
     expect.equal(found.kept_outline, report.paste.kept_outline)
+    -- A seam at which faces would turn over is smoothed.
+    local off = report.seam.smoothed == 0 and 1e-12 or 0.01 * found.scale
     for i = 1, #part do
         local x, y, z = part:position(i)
-        expect.near(mesh:nearest(x, y, z).distance, 0, 1e-12)
+        expect.near(mesh:nearest(x, y, z).distance, 0, off)
     end
     expect.equal(#boundary:points(), #part:boundaries()[1]:points())
     expect.near(select(3, paste:draft{ scale = "lock" }).scale, 0.8)
