@@ -421,7 +421,8 @@ assert(report.paste.scale > 0.5))"},
              {.name = "draft",
               .body = draft_paste,
               .summary =
-                  "The part as `merge` with `draft` has it, but alone and not sewn to the target: "
+                  "The part as `merge` with `draft` has it, but alone and neither sewn nor "
+                  "smoothed: "
                   "for a part that is shown many times a second while it is dragged. The cost "
                   "does not grow with the target.",
               .options = draft_parameters(),

@@ -2136,7 +2136,7 @@ function Paste:merge(options) end
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Takes the outline of the region if the surface is distorted less near that than near the boundary that was found. Default: true.
 
----The part as `merge` with `draft` has it, but alone and not sewn to the target: for a part that is shown many times a second while it is dragged. The cost does not grow with the target.
+---The part as `merge` with `draft` has it, but alone and neither sewn nor smoothed: for a part that is shown many times a second while it is dragged. The cost does not grow with the target.
 ---@param options? lissom.Paste.DraftOptions
 ---@return lissom.Mesh mesh # The part inside the boundary, deformed onto the edge of its hole.
 ---@return lissom.Path boundary # Its boundary there.
