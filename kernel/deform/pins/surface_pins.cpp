@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,8 @@ constexpr double kOnPlace = 1e-12;
 
 [[noreturn]] void refuse_pin(ErrorCode code, const char* message, Index vertex) {
     Elements pinned{ElementKind::vertex, 1, {vertex}};
-    throw Error(code, "the pin of " + describe(pinned) + " " + message, std::move(pinned));
+    const std::string text = "the pin of " + describe(pinned) + " " + message;
+    throw Error(code, text, std::move(pinned));
 }
 
 bool is_near_enough(const SlidingPin& pin) {

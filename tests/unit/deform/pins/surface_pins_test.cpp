@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "kernel/core/error.h"
@@ -172,6 +173,9 @@ TEST_CASE("sliding pins: bad ones are refused, and nothing moves") {
     bad.vertex = bar.deformer.handle(bar.top).region.vertices().front();
     CHECK(code_of({bad}) == ErrorCode::handle_overlap);
     CHECK(code_of({good, good}) == ErrorCode::handle_overlap);
+    const Error twice = error_of([&] { solve_with_pins(bar.deformer, std::vector{good, good}); });
+    CHECK(std::string(twice.what()).find(std::to_string(good.vertex)) != std::string::npos);
+    CHECK(twice.elements().ids == std::vector<Index>{good.vertex});
     CHECK(code_of(std::vector<SlidingPin>(513, good)) == ErrorCode::invalid_argument);
     Deformer part(bar.mesh, select_sphere(bar.mesh, {0, 2, 0}, 1.0));
     bad.vertex = bar.near({0.5, -2, 0.5});
