@@ -135,7 +135,8 @@ TEST_CASE("shell: colours are those of the hair, and darker inside") {
 TEST_CASE("shell: a strand apart from the others is outside") {
     Strands hair = radial_hair(6000);
     append(hair, strands_of({{Vec3(0.2, 0, 0), Vec3(0.2, 0.1, 0)}}));
-    for (const Vec3& p : make_shell(hair).positions()) CHECK(p.x() < 0.12);
+    const Mesh shell = make_shell(hair);
+    for (const Vec3& p : shell.positions()) CHECK(p.x() < 0.12);
 }
 
 TEST_CASE("shell: bad options and hair without length are refused") {
