@@ -211,6 +211,9 @@ std::optional<PartTrial> PartTrials::along_foot(const PartTrial& inner,
                                                 const Context& context) const {
     if (!surface.map().has_nearest()) return std::nullopt;
     const PastePart& part = inner.part();
+    // The foot follows from the part that it is of, whose outline depends on its place.
+    std::vector<Vec2> outline;
+    for (const RingPoint& point : inner.rim) outline.push_back(point.uv);
     const auto make = [&] {
         // With a ring of the surface around, which smoothing of the seam may bend.
         std::vector<double> height = max_around(part.mesh.topology(), heights_over_boundary(part));
@@ -220,7 +223,7 @@ std::optional<PartTrial> PartTrials::along_foot(const PartTrial& inner,
     };
     try {
         PartTrial trial = inner;
-        trial.moving = parts.inside(MovingParts::Boundary::foot, regions.inner, make,
+        trial.moving = parts.inside(MovingParts::Boundary::foot, outline, make,
                                     paste_deformation(options.thesis), context);
         trial.rim = rim_within(trial.part(), inner);
         trial.plain = move(trial, context);

@@ -181,6 +181,22 @@ TEST_CASE("paste: edges under the flat surface around a part stay, as far as it 
     }
 }
 
+TEST_CASE("paste: on edges, a part that was moved is that of a paste that begins there") {
+    const Mesh bump = bump_on_sheet(), cube = cube_of(9);
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    const auto at = [](double x, double scale) {
+        return PastePlacement{
+            .at = {x, 1.2, 0.15}, .up = Vec3::UnitZ(), .angle = 0.0, .scale = scale};
+    };
+    Paste used(bump, cube, region, bump_of(bump), std::nullopt, at(0.95, 0.45));
+    used.merge({.draft = true});
+    used.move(at(0.8, 0.3));
+    used.merge({.draft = true});
+    used.move(at(0.9, 0.4));
+    Paste fresh(bump, cube, region, bump_of(bump), std::nullopt, at(0.9, 0.4));
+    CHECK(hash(used.merge().merged.mesh) == hash(fresh.merge().merged.mesh));
+}
+
 TEST_CASE("paste: a drag across an edge and a corner of a box refuses no frame") {
     const Mesh bump = bump_on_sheet(), cube = cube_of(4);
     const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
