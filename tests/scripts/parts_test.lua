@@ -85,7 +85,9 @@ test("a part that is dragged is shown by drafts, and pasted well where it stays"
         local shown, report = dragged:merge{ draft = true }
         expect_whole(shown)
         expect.truthy(report.paste.draft and not report.provenance)
-        expect.equal(report.seam.flipped, 0)
+        -- Faces that turned over beside the seam as it was sewn at first do so no more.
+        local seam = report.seam
+        expect.truthy(seam.after.max_dihedral < 100 and seam.after.max_dihedral <= seam.before.max_dihedral)
     end
     local mesh, report = dragged:merge()
     expect.truthy(not report.paste.draft and report.provenance)
