@@ -11,7 +11,8 @@ const Scalp& scalp_of(const Call& call) {
     return *call.self<ScalpObject>()->scalp;
 }
 
-constexpr const char* kHairlineWords[] = {"forehead", "recession", "peak", "sideburns", "nape"};
+constexpr const char* kHairlineWords[] = {"forehead",  "recession", "peak",
+                                          "sideburns", "nape",      "irregular"};
 
 std::vector<HairlinePoint> listed_hairline(const Call& call) {
     if (!call.has("hairline")) return default_hairline();
@@ -37,7 +38,8 @@ std::vector<HairlinePoint> drawn_on(const Call& call, std::vector<HairlinePoint>
 std::vector<HairlinePoint> hairline_of(const Call& call, const Mesh& head,
                                        const ScalpOptions& options) {
     const HairlineShape shape{call.number("forehead"), call.number("recession"),
-                              call.number("peak"), call.number("sideburns"), call.number("nape")};
+                              call.number("peak"),     call.number("sideburns"),
+                              call.number("nape"),     call.number("irregular")};
     return shaped_hairline(drawn_on(call, listed_hairline(call), head, options), shape);
 }
 
@@ -333,7 +335,13 @@ std::vector<Function> scalp_functions() {
                      hairline_change("recession", "Depth of the bays beside the middle."),
                      hairline_change("peak", "Depth of a widow's peak."),
                      hairline_change("sideburns", "Length added to the hair in front of the ears."),
-                     hairline_change("nape", "Length added to the hair at the nape.")},
+                     hairline_change("nape", "Length added to the hair at the nape."),
+                     number("irregular",
+                            "Height by which the hairline wanders up and down around the head: "
+                            "hair grows up to no ruled line.")
+                         .in("metres")
+                         .defaults(0)
+                         .between(0, kMaxHairlineChange)},
          .results = {{"lissom.Scalp", "scalp", "The scalp."}},
          .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
                     ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::memory_limit,

@@ -4671,6 +4671,7 @@ function lissom.part.load(path) end
 ---@field peak? number Depth of a widow's peak. In metres. Default: 0.
 ---@field sideburns? number Length added to the hair in front of the ears. In metres. Default: 0.
 ---@field nape? number Length added to the hair at the nape. In metres. Default: 0.
+---@field irregular? number Height by which the hairline wanders up and down around the head: hair grows up to no ruled line. In metres. Default: 0.
 
 ---Finds the scalp of a bald head, bust or body, and which way it looks.
 ---@param head lissom.Mesh The head.

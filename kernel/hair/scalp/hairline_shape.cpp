@@ -38,12 +38,26 @@ double rise_at(const HairlineShape& shape, double azimuth) {
            shape.nape * rising_step(116.0, 145.0, azimuth);
 }
 
+// A line that wanders between -1 and 1, the same on every head: waves of whole numbers around it,
+// so that it closes at the back.
+double wandering(double azimuth) {
+    constexpr std::array<double, 5> kWaves{7.0, 11.0, 17.0, 27.0, 41.0};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kWaves.size(); ++i) {
+        sum += std::sin(kWaves[i] * azimuth * kDegree + 2.1 * static_cast<double>(i)) /
+               (1.5 + static_cast<double>(i));
+    }
+    return sum / 1.6;
+}
+
 void require_shape(const HairlineShape& shape) {
     for (const double x :
          {shape.forehead, shape.recession, shape.peak, shape.sideburns, shape.nape}) {
         require(std::abs(x) <= kMaxHairlineChange,
                 "a change of the hairline must lie between -0.1 and 0.1 metres");
     }
+    require(shape.irregular >= 0.0 && shape.irregular <= kMaxHairlineChange,
+            "an irregular hairline must wander by 0 to 0.1 metres");
 }
 
 HairlinePoint hairline_point(double azimuth, double elevation) {
@@ -108,8 +122,10 @@ std::vector<HairlinePoint> shaped_hairline(const std::vector<HairlinePoint>& hai
     require_shape(shape);
     if (shape == HairlineShape{}) return hairline;
     std::vector<HairlinePoint> result;
-    for (int a = hairline.front().azimuth < 0.0 ? -180 : 0; a <= 180; a += kHairlineStep) {
-        const double rise = rise_at(shape, std::abs(a)) / kHairlineRadius;
+    const bool both_sides = hairline.front().azimuth < 0.0 || shape.irregular > 0.0;
+    for (int a = both_sides ? -180 : 0; a <= 180; a += kHairlineStep) {
+        const double height = rise_at(shape, std::abs(a)) + shape.irregular * wandering(a);
+        const double rise = height / kHairlineRadius;
         const double elevation = hairline_elevation(hairline, a * kDegree) + rise;
         result.push_back(hairline_point(a, elevation / kDegree));
     }

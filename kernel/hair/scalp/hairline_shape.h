@@ -24,6 +24,9 @@ struct HairlineShape {
     double sideburns = 0.0;
     /// Length added to the hair at the nape; negative raises the line.
     double nape = 0.0;
+    /// Height by which the line wanders up and down as it goes around the head, differently on both
+    /// sides; 0 or more.
+    double irregular = 0.0;
 
     bool operator==(const HairlineShape&) const = default;
 };

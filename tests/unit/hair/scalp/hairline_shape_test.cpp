@@ -40,6 +40,24 @@ TEST_CASE("words of a hairdresser change their part of the hairline alone") {
     CHECK(rise_of({.forehead = 0.01}, 10) > 4.0);
 }
 
+TEST_CASE("an irregular hairline wanders about the given one, differently on both sides") {
+    constexpr double kWander = 0.004, kMostDegrees = kWander / 0.1 / kDegree;
+    double sum = 0.0, most = 0.0, differences = 0.0;
+    for (int azimuth = -179; azimuth <= 180; ++azimuth) {
+        const double rise = rise_of({.irregular = kWander}, azimuth);
+        sum += rise / 360.0;
+        most = std::max(most, std::abs(rise));
+        differences =
+            std::max(differences, std::abs(rise - rise_of({.irregular = kWander}, -azimuth)));
+    }
+    CHECK(std::abs(sum) < 0.1 * kMostDegrees);
+    CHECK(most > 0.4 * kMostDegrees);
+    CHECK(most < 1.3 * kMostDegrees);
+    CHECK(differences > 0.5 * kMostDegrees);
+    CHECK(rise_of({.irregular = kWander}, 180) == Approx(rise_of({.irregular = kWander}, -180)));
+    CHECK_THROWS_AS(shaped_hairline(default_hairline(), {.irregular = -0.001}), Error);
+}
+
 TEST_CASE("a larger recession leaves less hair, the more the more") {
     Mesh head = make_head({.vertices = 3000});
     REQUIRE(head.remove_region("scalp"));
