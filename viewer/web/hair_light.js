@@ -1,7 +1,7 @@
 // Light inside of hair: on a grid around it, how much of the light from all sides arrives, and from where.
 // Of the tint of the scalp: widths a square metre of full hair, shares of the usual density, metres over which roots are
 // even.
-const fullWidths = 55, bareShare = 0.25, coveredShare = 0.8, rootMean = 0.0165;
+const fullWidths = 55, bareShare = 0.05, coveredShare = 1, rootMean = 0.0165;
 const directions = [];
 for (let x = -1; x <= 1; ++x)
     for (let y = -1; y <= 1; ++y)

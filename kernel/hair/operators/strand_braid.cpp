@@ -147,12 +147,12 @@ class Braider {
         const auto [x, z] = center(tube, a);
         const double slope = (center(tube, a + 0.001).first - x) / 0.001;
         const double tilt = std::sqrt(1.0 + slope * slope);
-        // The lower tie, and the tuft, a brush that flares below it and closes to its end.
+        // The lower tie, and the tuft, a brush that widens a little below it: one that closed to
+        // its end would look like a bulb.
         const double tied = smooth_step(length_ - 0.022, length_ - 0.003, a);
-        const double flare = a <= length_ ? 1.0
-                                          : 1.0 + 0.8 * smooth_step(length_, length_ + 0.02, a) -
-                                                1.2 * smooth_step(length_ + 0.4 * options_.tuft,
-                                                                  length_ + options_.tuft, a);
+        const double flare =
+            1.0 + 0.4 * smooth_step(length_, length_ + 0.03, a) -
+            0.3 * smooth_step(length_ + 0.5 * options_.tuft, length_ + options_.tuft, a);
         const double r = options_.radius * scale(a);
         const double wide = 1.15 * r * (1.0 - tied) + 0.5 * options_.radius * flare * tied;
         const double high = 0.9 * r * (1.0 - tied) + 0.45 * options_.radius * flare * tied;

@@ -32,7 +32,7 @@ constexpr float kMeshSunk = 1.3f;
 // strands stand for many thin ones. Then the fractions of the usual density at which the scalp is
 // bare and is covered: at the outline of the roots half of it.
 constexpr float kFullWidths = 55.0f;
-constexpr float kBareShare = 0.25f, kCoveredShare = 0.80f;
+constexpr float kBareShare = 0.05f, kCoveredShare = 1.0f;
 // Width in metres of the means that smooth the density of roots, three along each axis: about a
 // Gaussian of 8 millimetres. Without them the places of the scalp between grid points show as
 // rings.
