@@ -250,12 +250,18 @@ end
 -- The ring of a tie, for pictures: a mesh around the first cross section of a tail.
 function hairdo.ring(scalp, tail)
     local tie = { azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
-    local center, normal = scalp:at(tie), scalp:normal_at(tie)
+    return hairdo.ring_around(scalp, scalp:at(tie), scalp:normal_at(tie), 0.75 * tail.radius, 0.0042)
+end
+
+-- The same around a point of the head's space in a direction of unit length, by its radius and that of its
+-- tube in metres.
+function hairdo.ring_around(scalp, center, direction, radius, tube)
     local size = scalp:scale()
-    local ring = lissom.shapes.torus{ radius = tail.radius * 0.95 * size, tube_radius = 0.0034 * size }
-    -- From +y to the normal.
-    local axis = { normal[3], 0, -normal[1] }
-    local angle = math.deg(math.acos(math.max(-1, math.min(1, normal[2]))))
+    local ring = lissom.shapes.torus{ radius = radius * size, tube_radius = tube * size }
+    -- From +y to the direction.
+    local axis = { direction[3], 0, -direction[1] }
+    local angle = math.deg(math.acos(math.max(-1, math.min(1, direction[2]))))
+    if axis[1] == 0 and axis[3] == 0 then axis[1] = 1 end
     if angle > 1e-6 then ring:transform{ rotate = { axis = axis, angle = angle, about = { 0, 0, 0 } } } end
     return ring:transform{ translate = center }
 end

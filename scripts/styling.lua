@@ -129,6 +129,16 @@ local function in_the_middle(route)
     return true
 end
 
+--- A mask for operators: `low` for strands rooted below the elevation `from`, 1 above `to`; degrees.
+-- Locks that are seen from their ends, as at the nape, lie like scales if they gather as much as on top.
+function styling.less_below(scalp, low, from, to)
+    local unit = scalp:unit()
+    return function(_, x, y, z)
+        local _, elevation = styling.angles(scalp:to_metres(x / unit, y / unit, z / unit))
+        return low + (1 - low) * styling.smooth(from, to, elevation)
+    end
+end
+
 --- Adds streams along routes; `stop` of a route is that of style:add_stream.
 function styling.streams(style, routes)
     for _, route in ipairs(routes) do
@@ -281,6 +291,13 @@ styling.crown_to_hairline = {
     { { 180, 56, 2 }, { 180, 22, 5 }, { 180, -8, 5 }, { 180, -42, 3 } },
 }
 
+--- Density of short hair at an azimuth and elevation: at the sides and the nape it fades out downwards, by a
+-- part of it at their hairline.
+function styling.fade(azimuth, elevation, part)
+    local behind = styling.smooth(60, 80, math.abs(azimuth))
+    return 1 - part * behind * (1 - styling.smooth(-45, 10, elevation))
+end
+
 --- Hair of a few millimetres, and its style: shaved sides, or all of a short cut. `options` has its `length`
 -- and `density` as style:grow takes them, the `part` of all strands that it holds, and the `seed`.
 function styling.stubble(head, o, options)
@@ -321,10 +338,12 @@ function styling.set_width(hair, width, all)
     return hair:set_widths{ width = styling.width_for(width, all or #hair) }
 end
 
---- Thin tips, and the waves of single hairs; `width` in metres, and `all` as in styling.set_width.
+--- Thin tips, the waves of single hairs, and some that fly away; `width` in metres, and `all` as in
+-- styling.set_width.
 function styling.finish(hair, width, noise, all)
     hair:noise{ amplitude = noise or 0.001, across = 0.02, along = 0.11 }
     hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
+    hair:frizz{ amplitude = 0.0003, wavelength = 0.06, flyaways = 0.012, flyaway = 9, seed = 3 }
     return styling.thin_out(styling.set_width(hair, width, all))
 end
 
@@ -334,18 +353,42 @@ function styling.thin_out(hair)
     return hair:taper{ tip = 0.12, start = math.max(0.35, 1 - 0.045 / math.max(length, 0.001)) }
 end
 
+--- Parts the end of a tail in locks that lean and end one by one: else it closes as smoothly as a drop.
+-- `group` names its strands among others, which end before its tie.
+function styling.tail_ends(hair, seed, group)
+    hair:noise{ amplitude = 0.006, across = 0.008, along = 0.1, shape = 2.5, seed = seed, mask = group }
+    hair:clump{ clumps = 160, strength = 0.6, shape = 4, tip_spread = 0.003, offset = 0.012, seed = seed,
+        mask = group }
+    return hair:clump{ clumps = 1500, strength = 0.4, shape = 1.5, seed = seed + 1 }
+end
+
 -- Edges of hair, the options of hair:soften_edge: of hair that is tied or combed back, whose edge is seen,
 -- with baby hair; of loose hair; and of short hair, which fades out.
 local edges = {
-    tied = { width = 0.4, length = 0.9, baby = 0.4, stray = 0.005, reach = 0.026 },
-    loose = { width = 0.5, length = 0.9, baby = 0.2, reach = 0.022 },
-    short = { width = 0.4, length = 0.25, baby = 0.1, baby_length = 0.006, stray = 0.001, reach = 0.028 },
+    tied = { width = 0.35, length = 0.9, baby = 0.4, stray = 0.005, reach = 0.03 },
+    loose = { width = 0.45, length = 0.9, baby = 0.2, reach = 0.026 },
+    short = { width = 0.3, length = 0.2, baby = 0.1, baby_length = 0.006, stray = 0.001, reach = 0.042 },
 }
 
 --- Width in metres of the band over which hair thins out at the hairline of a preset.
-styling.softness = 0.02
+styling.softness = 0.03
 
--- Hair that lies in no order reflects light in no narrow band.
+-- The edge of a preset's hair: a little lower than an average one, as it thins out over a wide band; close
+-- around the ears.
+local hairline = { { 0, 34 }, { 20, 35 }, { 38, 34 }, { 52, 26 }, { 62, 11 }, { 70, -4 }, { 76, -14 },
+    { 82, -17 }, { 86, -15 }, { 90, -9 }, { 95, -6 }, { 101, -7 }, { 106, -14 }, { 110, -24 }, { 114, -33 },
+    { 121, -40 }, { 135, -47 }, { 155, -51 }, { 180, -54 } }
+
+--- The scalp of a head for a preset: its hair thins out at a hairline that wanders as a grown one does. The
+-- `unit` in metres may be absent.
+function styling.scalp(head, unit)
+    return lissom.scalp(head, { unit = unit, softness = styling.softness, hairline = hairline,
+        recession = 0.004, irregular = 0.003 })
+end
+
+-- Locks differ in tone, or hair looks like a helmet. Hair that lies in no order reflects light in no narrow
+-- band.
+local natural = { strand_tone = 0.2, clump_tone = 0.18, clump_size = 0.007, shift_jitter = 0.08 }
 local sheen = {
     short = { primary = 0.09, primary_exponent = 12, secondary = 0.36, secondary_exponent = 8,
         clump_tone = 0.06 },
@@ -354,7 +397,7 @@ local sheen = {
 --- How hair of an edge looks, the option `hair` of lissom.render; `own` counts before it.
 function styling.look(edge, own)
     local all = {}
-    for _, from in ipairs{ sheen[edge] or {}, own or {} } do
+    for _, from in ipairs{ natural, sheen[edge] or {}, own or {} } do
         for key, value in pairs(from) do all[key] = value end
     end
     return all
@@ -391,7 +434,7 @@ function styling.preset(module, preset)
     function preset.grow(head, values, options)
         local all = { count = 30000, resolution = 50000 }
         for key, value in pairs(options or {}) do all[key] = value end
-        all.scalp = all.scalp or lissom.scalp(head, { softness = styling.softness })
+        all.scalp = all.scalp or styling.scalp(head)
         local full = complete(preset, values)
         local style, hair, look, meshes = preset.make(head, full, all)
         if preset.edge then styling.soften(style, hair, preset.edge, full.seed) end
@@ -403,7 +446,7 @@ function styling.preset(module, preset)
     for name in pairs(preset.schema) do values[name] = params[name] end
     local head = hairdo.head(params)
     local style, hair, look, meshes = preset.grow(head, values,
-        { scalp = hairdo.scalp(head, params, styling.softness), resolution = params.resolution,
+        { scalp = styling.scalp(head, params.unit > 0 and params.unit or nil), resolution = params.resolution,
             count = params.count })
     local files = {}
     for _, key in ipairs{ "out", "name", "format", "pictures", "size" } do files[key] = params[key] end

@@ -35,6 +35,24 @@ function tails.way_down(scalp, tie, length, away)
     return points
 end
 
+--- The ring of the tie at the end of a braid: around the point of its spine `length` metres on.
+function tails.end_ring(scalp, spine, length, radius)
+    local far, size = 0, scalp:scale()
+    for i = 2, #spine do
+        local a, b, d, step = spine[i - 1], spine[i], {}, 0
+        for k = 1, 3 do
+            d[k] = b[k] - a[k]
+            step = step + d[k] ^ 2
+        end
+        step = math.sqrt(step)
+        far = far + step / size
+        if far >= length or i == #spine then
+            for k = 1, 3 do d[k] = d[k] / step end
+            return hairdo.ring_around(scalp, b, d, radius, 0.0026)
+        end
+    end
+end
+
 --- The way of a braid from its tie behind the ear over the shoulder to the front, `away` metres off the head.
 function tails.way_over_shoulder(scalp, tie, away)
     local side = tie.azimuth < 0 and -1 or 1

@@ -49,7 +49,7 @@ return styling.preset(..., {
             radius = v.radius, wide = 1.4 * v.radius, high = 0.7 * v.radius, wavelength = 6.5 * v.radius,
             joined = 0.7, tail = 0.6, begin_size = 0.5, end_size = 0.6, min_run = 0.1, max_run = 0.4,
             seed = v.seed, drop_others = true }
-        hair:push_out{ head = style, clearance = 0.0015 }
-        return style, styling.finish(hair, 0.00024, 0.0006), { color = "#6b4a2f", unit = scalp:unit() }
+        styling.finish(hair, 0.00024, 0.0006):push_out{ head = style, clearance = 0.0015 }
+        return style, hair, { color = "#6b4a2f", unit = scalp:unit() }
     end,
 })

@@ -8,8 +8,8 @@ local styling = require "styling"
 local function over_ears(length)
     local routes = {}
     for i, p in ipairs{ { 74, 8 }, { 92, 16 }, { 106, 16 }, { 120, 4 } } do
-        routes[i] = { { p[1], p[2], 2 }, { p[1] + 1, p[2] - 5, length / 2 },
-            { p[1] + 2, p[2] - 11, length } }
+        routes[i] = { { p[1], p[2], 2 }, { p[1] + 2, p[2] - 9, length / 2 },
+            { p[1] + 4, p[2] - 20, length } }
     end
     return routes
 end

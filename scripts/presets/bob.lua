@@ -45,7 +45,7 @@ return styling.preset(..., {
         styling.ragged_hem(hair, scalp, hem, v.ragged, v.seed)
         hair:clump{ strength = 0.4, shape = 2.5, tip_spread = 0.002, seed = v.seed }
         if v.curl > 0 then hair:roll{ radius = 0.03, start = 0.8, factor = v.curl } end
-        hair:push_out{ head = style, clearance = 0.001 }
-        return style, styling.finish(hair, 0.0003, 0.001), { unit = scalp:unit() }
+        styling.finish(hair, 0.0003, 0.001):push_out{ head = style, clearance = 0.001 }
+        return style, hair, { unit = scalp:unit() }
     end,
 })

@@ -28,8 +28,9 @@ return styling.preset(..., {
         hair:smooth{ iterations = 3 }
         hair:braid{ spine = spine, scalp = o.scalp, across = o.scalp:left(), radius = v.radius,
             reach = 2.2 * tie.radius, length = v.length, tuft = v.tuft, seed = v.seed }
-        hair:frizz{ amplitude = 0.0009, wavelength = 0.03 }
-        styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.001 }
-        return style, hair, { unit = o.scalp:unit() }, { hairdo.ring(o.scalp, tie) }
+        hair:frizz{ amplitude = 0.0003, wavelength = 0.02, flyaways = 0.03, flyaway = 5 }
+        styling.finish(hair, 0.00022, 0.0003):push_out{ head = style, clearance = 0.001 }
+        return style, hair, { unit = o.scalp:unit() }, {
+            hairdo.ring(o.scalp, tie), tails.end_ring(o.scalp, spine, v.length, 0.5 * v.radius) }
     end,
 })

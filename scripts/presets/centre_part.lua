@@ -15,6 +15,6 @@ return styling.preset(..., {
         local style = styling.long(head, o, styling.behind,
             { { 0, 37 }, { 0, 48 }, { 0, 60 }, { v.parting < 70 and 0 or 180, v.parting } })
         local hair = styling.straight(style, o, v)
-        return style, hair, { color = "#1c1210", primary = 0.19, unit = o.scalp:unit() }
+        return style, hair, { color = "#2c1d17", primary = 0.17, unit = o.scalp:unit() }
     end,
 })

@@ -18,7 +18,7 @@ local function spine_of(scalp, across, tail)
     for t = first, last, step do
         local azimuth, elevation = place(across, t)
         points[#points + 1] = scalp:at{ azimuth = azimuth, elevation = elevation,
-            lift = 0.0005 + 0.0045 * styling.smooth(34, 90, t) }
+            lift = 0.0003 + 0.0027 * styling.smooth(34, 90, t) }
     end
     local q = scalp:to_metres(points[#points])
     for j = 1, 6 do
@@ -31,12 +31,12 @@ end
 return styling.preset(..., {
     name = "cornrows",
     schema = {
-        rows = { type = "integer", default = 11, min = 5, max = 17, help = "number of braids" },
+        rows = { type = "integer", default = 13, min = 5, max = 17, help = "number of braids" },
         tails = { type = "number", default = 0.108, min = 0.02, max = 0.25, unit = "metres",
             help = "length of the braids below the nape" },
-        gap = { type = "number", default = 0.3, min = 0, max = 0.5,
+        gap = { type = "number", default = 0.16, min = 0, max = 0.5,
             help = "part of the scalp between them" },
-        thickness = { type = "number", default = 0.9, min = 0.6, max = 1.3,
+        thickness = { type = "number", default = 1.08, min = 0.6, max = 1.3,
             help = "of a braid as a part of the usual" },
     },
     make = function(head, v, o)
@@ -59,8 +59,8 @@ return styling.preset(..., {
             if #one > 0 then
                 one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
                     across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
-                    high = 0.0022 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
-                    max_run = 0.06, tail = 0.35, begin_size = 0.3, end_size = 0.55, step = 0.0016,
+                    high = 0.0019 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
+                    max_run = 0.06, tail = 0.35, begin_size = 0.25, end_size = 0.55, step = 0.0019,
                     seed = v.seed, drop_others = true }
             end
             braids = braids and braids:append(one) or one

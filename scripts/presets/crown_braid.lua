@@ -31,7 +31,7 @@ return styling.preset(..., {
     schema = {
         height = { type = "number", default = 50, min = 40, max = 60, unit = "degrees",
             help = "elevation of the braid in front" },
-        radius = { type = "number", default = 0.0085, min = 0.005, max = 0.012, unit = "metres",
+        radius = { type = "number", default = 0.0078, min = 0.005, max = 0.012, unit = "metres",
             help = "of each of its three strands" },
         turn = { type = "number", default = 0.06, min = 0.03, max = 0.1, unit = "metres",
             help = "length of one turn of a strand" },
@@ -44,7 +44,7 @@ return styling.preset(..., {
         streams(style, v.height)
         for azimuth = -180, 330, 10 do
             local a = (azimuth + 180) % 360 - 180
-            spine[#spine + 1] = scalp:at{ azimuth = a, elevation = ring_at(a, v.height), lift = 0.008 }
+            spine[#spine + 1] = scalp:at{ azimuth = a, elevation = ring_at(a, v.height), lift = 0.005 }
         end
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.16, layer = 0.005,
             clearance = 0.002 }
@@ -52,7 +52,8 @@ return styling.preset(..., {
         hair:feed_braid{ spine = spine, scalp = scalp, across = scalp:up(), radius = v.radius,
             wide = 1.15 * v.radius, high = 0.7 * v.radius, wavelength = v.turn, joined = 0.7, loose = v.loose,
             seed = v.seed, drop_others = true }
-        hair:frizz{ amplitude = 0.0005, wavelength = 0.02 }:push_out{ head = style, clearance = 0.0015 }
-        return style, styling.finish(hair, 0.00024, 0.0005), { color = "#c09a5c", unit = scalp:unit() }
+        hair:frizz{ amplitude = 0.0005, wavelength = 0.02 }
+        styling.finish(hair, 0.00024, 0.0005):push_out{ head = style, clearance = 0.0015 }
+        return style, hair, { color = "#c09a5c", unit = scalp:unit() }
     end,
 })

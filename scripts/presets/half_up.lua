@@ -45,9 +45,10 @@ return styling.preset(..., {
         hair:cull{ mask = styling.over_face(scalp, hair) }
         hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
         hair:gather{ guides = 140, factor = 0.4, ramp = 0.2, spread = 0.006 }
-        styling.loose_waves(hair, scalp, { radius = v.wave, wavelength = 0.095, seed = v.seed })
+        styling.loose_waves(hair, scalp, { radius = v.wave, wavelength = 0.095, start = 0.03, ramp = 0.12,
+            depth = 0.35, seed = v.seed })
         styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.012, v.seed)
-        hair:clump{ clumps = 900, strength = 0.5, shape = 2, tip_spread = 0.0015 }
+        hair:clump{ clumps = 420, strength = 0.55, shape = 1.5, tip_spread = 0.002 }
         hair:push_out{ head = low, clearance = 0.003 }
         local style, up, tie = ponytail.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },

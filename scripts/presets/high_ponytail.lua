@@ -28,7 +28,7 @@ return styling.preset(..., {
             hair:wave{ radius = v.wave, wavelength = 0.09, start = 0.2, ramp = 0.1, keep_length = false,
                 seed = v.seed }
         end
-        hair:clump{ clumps = 1200, strength = 0.35, seed = v.seed }
+        styling.tail_ends(hair, v.seed, "ponytail")
         styling.finish(hair, 0.00024, 0.001):push_out{ head = style, clearance = 0.001 }
         return style, hair, { color = "#3c2415", primary = 0.17, unit = o.scalp:unit() },
             { hairdo.ring(o.scalp, tie) }

@@ -45,8 +45,8 @@ return styling.preset(..., {
         hair:frizz{ amplitude = v.matted, wavelength = 0.006, flyaways = 0.015, flyaway = 3, shape = 0.3,
             seed = v.seed }
         hair:push_out{ head = style, clearance = 0.002 }
-        styling.thin_out(styling.set_width(hair, 0.00025))
-        return style, hair, { color = "#3a2a20", clump_tone = 0.35, clump_size = 0.014, primary = 0.07,
+        styling.set_width(hair, 0.00025):taper{ tip = 0.5, start = 0.93 }
+        return style, hair, { color = "#4a372a", clump_tone = 0.4, clump_size = 0.014, primary = 0.07,
             secondary = 0.35, unit = scalp:unit() }
     end,
 })

@@ -35,8 +35,9 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp, half = o.scalp, v.width / 2
-        local beside = styling.by_angles(scalp, function(_, _, p)
+        local beside = styling.by_angles(scalp, function(azimuth, elevation, p)
             return styling.smooth(half - 0.003, half, math.abs(p[1]))
+                * styling.fade(azimuth, elevation, 0.5)
         end)
         local _, hair = styling.stubble(head, o, { part = 0.6, seed = v.seed, length = v.sides,
             density = beside })
@@ -51,10 +52,11 @@ return styling.preset(..., {
         local inside = styling.by_angles(scalp, function(_, _, p)
             return 1 - styling.smooth(half, half + 0.003, math.abs(p[1]))
         end)
-        local top = style:grow{ count = math.floor(0.5 * o.count), seed = v.seed, length = lengths, layer = 0,
+        local top = style:grow{ count = math.floor(0.9 * o.count), seed = v.seed, length = lengths, layer = 0,
             clearance = 0.001, lift = 0.5, variation = 0.08, density = inside }
         top:resample{ count = 16 }
-        top:clump{ clumps = v.spikes, strength = 0.75, shape = 1.3, tip_spread = 0.003 }
+        top:clump{ clumps = v.spikes, strength = 0.75, shape = 1.3, tip_spread = 0.003,
+            mask = styling.less_below(scalp, 0.15, -20, 40) }
         top:clump{ clumps = 600, strength = 0.3 }:push_out{ head = style }
         styling.finish(top, 0.00026, 0.0015, o.count):set_colors{ color = { 0.30, 0.03, 0.05 } }
         return style, hair:append(top), { unit = scalp:unit() }

@@ -30,7 +30,7 @@ return styling.preset(..., {
             hair:wave{ radius = v.wave, wavelength = 0.07, start = 0.16, ramp = 0.1, keep_length = false,
                 seed = v.seed }
         end
-        hair:clump{ clumps = 1200, strength = 0.4, seed = v.seed }
+        styling.tail_ends(hair, v.seed)
         local rings = {}
         for i, tie in ipairs(ties) do rings[i] = hairdo.ring(scalp, tie) end
         styling.finish(hair, 0.00024, 0.001):push_out{ head = style, clearance = 0.001 }

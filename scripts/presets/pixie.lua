@@ -13,6 +13,7 @@ local combed = {
     { 100, 60, 74, 26, 11 }, { 88, 36, 72, 6, 9 }, { 96, 16, 82, -12, 8 }, { 66, 20, 62, -4, 6 },
     { 124, 46, 116, 8, 12 }, { 126, 6, 116, -24, 8 }, { 180, 66, 180, 34, 14 }, { 180, 34, 180, 2, 12 },
     { 150, 40, 148, 4, 12 }, { 180, 0, 176, -34, 6 }, { 146, -4, 142, -34, 6 },
+    { 180, -32, 180, -58, 3 }, { 152, -32, 150, -56, 3 }, { 126, -22, 126, -46, 3 },
 }
 
 return styling.preset(..., {
@@ -23,7 +24,7 @@ return styling.preset(..., {
             help = "length of the fringe" },
         sides = { type = "number", default = 0.045, min = 0.015, max = 0.07, unit = "metres",
             help = "length beside the ears" },
-        nape = { type = "number", default = 0.022, min = 0.004, max = 0.05, unit = "metres",
+        nape = { type = "number", default = 0.014, min = 0.004, max = 0.05, unit = "metres",
             help = "length at the nape" },
         locks = { type = "integer", default = 500, min = 50, max = 3000, help = "number of locks" },
     },
@@ -36,10 +37,11 @@ return styling.preset(..., {
             local low = v.sides + (v.nape - v.sides) * back
             -- At the back it is layered: hair of one length would hang over the nape like a bowl.
             local high = v.fringe * (1 - 0.4 * back)
-            return low + (high - low) * styling.smooth(-8, 44 + 26 * back, elevation)
+            return low + (high - low) * styling.smooth(-8 - 22 * back, 44 + 26 * back, elevation)
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.008,
-            clearance = 0.0015, lift = 0.35, variation = 0.3 }
+            clearance = 0.0015, lift = 0.35, variation = 0.4,
+            segment = 0.3, min_speed = 0.01 }
         hair:resample{ count = 16 }:smooth{ iterations = 2 }
         hair:clump{ clumps = v.locks, strength = 0.6, tip_spread = 0.0015, offset = 0.002, seed = v.seed }
         styling.finish(hair, 0.00028, 0.003):push_out{ head = style, clearance = 0.0015 }

@@ -95,7 +95,7 @@ function ponytail.style(head, values, options)
     values = complete(values)
     local all = {}
     for key, value in pairs(options or {}) do all[key] = value end
-    all.scalp = all.scalp or lissom.scalp(head, { softness = styling.softness })
+    all.scalp = all.scalp or styling.scalp(head)
     local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
         length = values.length,
         droop = values.droop >= 0 and values.droop or droop_at(values.height, values.side),
@@ -168,9 +168,12 @@ if ... ~= "presets.ponytail" then
     local values = {}
     for name in pairs(ponytail.schema) do values[name] = params[name] end
     local head = hairdo.head(params)
-    local options = { scalp = hairdo.scalp(head, params, styling.softness), resolution = params.resolution }
+    local options = { scalp = styling.scalp(head, params.unit > 0 and params.unit or nil),
+        resolution = params.resolution }
     local style, hair, tie = ponytail.grow(head, values, options, { count = params.count })
-    hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) })
+    styling.tail_ends(hair:smooth{ iterations = 2 }, values.seed, "ponytail")
+    hair:push_out{ head = style, clearance = 0.001 }
+    hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) }, styling.look("tied"))
 end
 
 return ponytail

@@ -46,8 +46,10 @@ return styling.preset(..., {
         hair:guides{ count = v.locks }
         hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged / 2, guide_jitter = v.ragged / 2,
             seed = v.seed }
-        hair:smooth{ iterations = 3 }:clump{ strength = 0.4 }
+        hair:smooth{ iterations = 3 }:clump{ strength = 0.7, shape = 0.7 }
+        hair:noise{ amplitude = 0.002, across = 0.005, along = 0.12, seed = 7 }
         styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
-        return style, hair, { color = "#2b1a10", primary = 0.2, primary_exponent = 40, unit = scalp:unit() }
+        return style, hair, { color = "#38241a", primary = 0.16, primary_exponent = 24, shift_jitter = 0.16,
+            unit = scalp:unit() }
     end,
 })

@@ -25,11 +25,11 @@ return styling.preset(..., {
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0,
             clearance = 0.001,
-            lift = 0.3, variation = 0.1 }
+            lift = 0.3, variation = 0.22 }
         hair:resample{ count = 14 }
         hair:noise{ amplitude = v.disorder, across = 0.03, along = 0.08, seed = 2 + v.seed }
-        hair:clump{ clumps = v.spikes, strength = v.sharp, variation = 0.05, shape = 0.9,
-            tip_spread = 0.0008 }
+        hair:clump{ clumps = v.spikes, strength = v.sharp, variation = 0.15, shape = 0.9,
+            tip_spread = 0.0012, offset = 0.006, mask = styling.less_below(scalp, 0.4, -25, 30) }
         hair:push_out{ head = style }
         return style, styling.finish(hair, 0.00028, 0.001),
             { color = "#b88a4a", scalp_tint = 0.85, unit = scalp:unit() }

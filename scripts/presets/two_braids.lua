@@ -27,14 +27,16 @@ return styling.preset(..., {
         hair:smooth{ iterations = 3 }
         local rings = {}
         for i, tie in ipairs(ties) do
-            hair:braid{ spine = tails.way_over_shoulder(scalp, tie, 0.02), scalp = scalp,
+            local spine = tails.way_over_shoulder(scalp, tie, 0.02)
+            hair:braid{ spine = spine, scalp = scalp,
                 across = scalp:left(), radius = v.radius, reach = 2.2 * tie.radius, length = v.length,
                 tuft = v.tuft, seed = v.seed }
+            rings[i + 2] = tails.end_ring(scalp, spine, v.length, 0.5 * v.radius)
             rings[i] = hairdo.ring(scalp, { azimuth = tie.azimuth, elevation = tie.elevation,
                 lift = tie.lift, radius = 0.9 * tie.radius })
         end
-        hair:frizz{ amplitude = 0.0008, wavelength = 0.03 }:clump{ clumps = 2500, strength = 0.1 }
-        styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.001 }
+        hair:frizz{ amplitude = 0.0003, wavelength = 0.02, flyaways = 0.03, flyaway = 5 }
+        styling.finish(hair, 0.00022, 0.0003):push_out{ head = style, clearance = 0.001 }
         return style, hair, { color = "#8a5a2c", unit = scalp:unit() }, rings
     end,
 })

@@ -22,7 +22,7 @@ return styling.preset(..., {
         sides = { type = "number", default = 0.004, min = 0.001, max = 0.015, unit = "metres",
             help = "length of the shaved hair below it" },
         fade = { type = "number", default = 0.6, min = 0, max = 1,
-            help = "part by which shaved hair is shorter at the hairline" },
+            help = "part by which shaved hair is shorter and thinner at the hairline" },
         line = { type = "number", default = 46, min = 32, max = 60, unit = "degrees",
             help = "elevation of the line between them at the sides" },
     },
@@ -32,7 +32,9 @@ return styling.preset(..., {
             local line = 20 + (v.line - 20) * styling.smooth(40, 70, math.abs(azimuth))
             return styling.smooth(line - 1.5, line + 1.5, elevation)
         end
-        local function shaved(azimuth, elevation) return 1 - on_top(azimuth, elevation) end
+        local function shaved(azimuth, elevation)
+            return (1 - on_top(azimuth, elevation)) * styling.fade(azimuth, elevation, 0.8 * v.fade)
+        end
         local function faded(_, elevation)
             return v.sides * (1 - v.fade * (1 - styling.smooth(-30, v.line, elevation)))
         end
@@ -50,8 +52,8 @@ return styling.preset(..., {
             length = styling.by_angles(scalp, top_length), density = styling.by_angles(scalp, on_top),
             layer = 0.008, clearance = 0.002, lift = 0.5, variation = 0.2 }
         top:resample{ count = 24 }:smooth{ iterations = 3 }
-        top:clump{ clumps = 350, strength = 0.5 }
-        styling.finish(top, 0.00028, 0.004, o.count):push_out{ head = style, clearance = 0.0015 }
+        top:clump{ clumps = 350, strength = 0.55 }:clump{ clumps = 1500, strength = 0.4, seed = 2 }
+        styling.finish(top, 0.00026, 0.002, o.count):push_out{ head = style, clearance = 0.0015 }
         return style, hair:append(top:set_colors{ color = { 0.1, 0.055, 0.028 } }), { unit = scalp:unit() }
     end,
 })

@@ -25,11 +25,12 @@ return styling.preset(..., {
         hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
         hair:cull{ mask = styling.over_face(scalp, hair) }
         hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
-        hair:gather{ guides = v.locks, factor = 0.45, ramp = 0.2, spread = 0.006 }
-        styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, seed = v.seed })
-        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.012, v.seed)
-        hair:clump{ clumps = 900, strength = 0.5, shape = 2, tip_spread = 0.0015 }
-        styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.003 }
+        hair:gather{ guides = v.locks, factor = 0.65, ramp = 0.2, spread = 0.006 }
+        styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, depth = 0.4,
+            tip = 0.9, seed = v.seed })
+        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.009, v.seed)
+        hair:clump{ clumps = 420, strength = 0.6, shape = 1.5, tip_spread = 0.002 }
+        styling.finish(hair, 0.00026, 0.0006):push_out{ head = style, clearance = 0.003 }
         return style, hair, { unit = scalp:unit() }
     end,
 })
