@@ -60,7 +60,7 @@ return styling.preset(..., {
                 one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
                     across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
                     high = 0.0019 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
-                    max_run = 0.06, tail = 0.35, begin_size = 0.25, end_size = 0.55, step = 0.0019,
+                    max_run = 0.06, tail = 0.35, begin_size = 0.4, end_size = 0.55, step = 0.0019,
                     seed = v.seed, drop_others = true }
             end
             braids = braids and braids:append(one) or one

@@ -14,6 +14,7 @@ local routes = {
         { 154, -36, 3 }, { 157, -50, 2 }, stop = false },
     { { 60, 22, 3 }, { 74, 30, 5 }, { 95, 31, 6 }, { 116, 22, 7 }, { 134, 0, 6 }, { 143, -26, 4 },
         { 148, -48, 2 }, stop = false },
+    { { 112, -12, 2 }, { 124, -22, 3 }, { 134, -36, 3 }, { 142, -50, 2 }, stop = false },
     { { 70, 4, 3 }, { 76, 16, 4 }, { 88, 22, 5 }, { 104, 22, 6 }, { 122, 8, 5 }, { 134, -14, 4 },
         { 141, -40, 2 }, stop = false },
 }
@@ -38,16 +39,16 @@ return styling.preset(..., {
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.11, layer = v.volume,
             clearance = 0.0015, lift = 0.3, variation = 0.2 }
         local hem = {}
-        for azimuth = 110, 180, 2 do
+        for azimuth = 96, 180, 2 do
             -- Rounded at the nape, deepest in the middle.
             local low = v.length * (0.9 + 0.14 * styling.smooth(124, 176, azimuth))
-            hem[#hem + 1] = { azimuth, 0.012 - (low + 0.012) * styling.smooth(112, 124, azimuth) }
+            hem[#hem + 1] = { azimuth, 0.012 - (low + 0.012) * styling.smooth(94, 126, azimuth) }
         end
         hair:guides{ count = v.locks }
         hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged / 2, guide_jitter = v.ragged / 2,
             seed = v.seed }
         hair:smooth{ iterations = 3 }:clump{ strength = 0.7, shape = 0.7 }
-        hair:noise{ amplitude = 0.002, across = 0.005, along = 0.12, seed = 7 }
+        hair:noise{ amplitude = 0.0013, across = 0.005, along = 0.12, seed = 7 }
         styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
         return style, hair, { color = "#38241a", primary = 0.16, primary_exponent = 24, shift_jitter = 0.16,
             unit = scalp:unit() }

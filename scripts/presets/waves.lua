@@ -11,7 +11,7 @@ return styling.preset(..., {
     schema = {
         length = { type = "number", default = 0.235, min = 0.08, max = 0.33, unit = "metres",
             help = "of the ends below the middle of the head" },
-        radius = { type = "number", default = 0.009, min = 0, max = 0.02, unit = "metres",
+        radius = { type = "number", default = 0.0115, min = 0, max = 0.02, unit = "metres",
             help = "of a wave" },
         wavelength = { type = "number", default = 0.095, min = 0.03, max = 0.2, unit = "metres",
             help = "of a wave" },
@@ -28,7 +28,7 @@ return styling.preset(..., {
         hair:gather{ guides = v.locks, factor = 0.65, ramp = 0.2, spread = 0.006 }
         styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, depth = 0.4,
             tip = 0.9, seed = v.seed })
-        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.009, v.seed)
+        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.007, v.seed)
         hair:clump{ clumps = 420, strength = 0.6, shape = 1.5, tip_spread = 0.002 }
         styling.finish(hair, 0.00026, 0.0006):push_out{ head = style, clearance = 0.003 }
         return style, hair, { unit = scalp:unit() }
