@@ -247,6 +247,24 @@ function hairdo.lead(style, tail, options)
     end
 end
 
+-- Takes away hair that missed its tie and hangs free: strands of no group with a tip more than three
+-- centimetres off the head.
+function hairdo.cull_missed(hair, scalp)
+    local unit, missed, any = scalp:unit(), {}, false
+    for s = 1, #hair do
+        missed[s] = 0
+        if not hair:root(s).group then
+            local strand = hair:strand(s)
+            local x, y, z = strand:get(strand:count())
+            local tip = { x / unit, y / unit, z / unit }
+            local foot, off = scalp:head():nearest(tip).position, 0
+            for k = 1, 3 do off = off + (tip[k] - foot[k]) ^ 2 end
+            if math.sqrt(off) > 0.03 * scalp:scale() then missed[s], any = 1, true end
+        end
+    end
+    return any and hair:cull{ mask = missed } or hair
+end
+
 -- The ring of a tie, for pictures: a mesh around the first cross section of a tail.
 function hairdo.ring(scalp, tail)
     local tie = { azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }

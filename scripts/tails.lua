@@ -35,9 +35,10 @@ function tails.way_down(scalp, tie, length, away)
     return points
 end
 
---- The ring of the tie at the end of a braid: around the point of its spine `length` metres on.
+--- The ring of the tie at the end of a braid: around the point of its spine `length` on. Lengths are those of
+-- the braid, in metres of its hair.
 function tails.end_ring(scalp, spine, length, radius)
-    local far, size = 0, scalp:scale()
+    local far, unit = 0, scalp:unit()
     for i = 2, #spine do
         local a, b, d, step = spine[i - 1], spine[i], {}, 0
         for k = 1, 3 do
@@ -45,10 +46,11 @@ function tails.end_ring(scalp, spine, length, radius)
             step = step + d[k] ^ 2
         end
         step = math.sqrt(step)
-        far = far + step / size
+        far = far + step * unit
         if far >= length or i == #spine then
             for k = 1, 3 do d[k] = d[k] / step end
-            return hairdo.ring_around(scalp, b, d, radius, 0.0026)
+            local average = unit * scalp:scale()
+            return hairdo.ring_around(scalp, b, d, radius / average, 0.0026 / average)
         end
     end
 end

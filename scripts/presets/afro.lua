@@ -34,8 +34,14 @@ return styling.preset(..., {
             volume = { min = { -0.1 - h, -0.2, -0.12 - h }, max = { 0.1 + h, 0.14 + h, 0.1 + h } } })
         styling.radial(style, 1000 * h)
         styling.streams(style, over_ears(1000 * h))
-        local hair = style:grow{ count = o.count, seed = v.seed, length = h, clearance = 0.001, layer = 0,
-            variation = 0.1 }
+        -- Over the ears the ball rounds off; hair of one length would end there in a ledge.
+        local lengths = styling.by_angles(scalp, function(azimuth, elevation)
+            local a = math.abs(azimuth)
+            local beside = styling.smooth(50, 75, a) * (1 - styling.smooth(115, 135, a))
+            return h * (1 - 0.45 * beside * (1 - styling.smooth(2, 34, elevation)))
+        end)
+        local hair = style:grow{ count = o.count, seed = v.seed, length = lengths,
+            clearance = 0.001, layer = 0, variation = 0.1 }
         hair:resample{ step = 0.006 }:guides{ count = 6000 }
         hair:curl{ radius = v.coil, wavelength = 4 * v.coil, ramp = 0.008, start = 0, hang = 0, phase = 0.5,
             variation = 0.35, points_per_turn = 9, keep_length = false, seed = v.seed }

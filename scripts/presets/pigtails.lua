@@ -24,7 +24,7 @@ return styling.preset(..., {
             tail_length = v.length })
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.25 + v.length, layer = 0.007,
             clearance = 0.002 }
-        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }
+        hairdo.cull_missed(hair, scalp):resample{ step = 0.006 }:smooth{ iterations = 3 }
         hair:guides{ count = 400 }
         if v.wave > 0 then
             hair:wave{ radius = v.wave, wavelength = 0.07, start = 0.16, ramp = 0.1, keep_length = false,
