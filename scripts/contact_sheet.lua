@@ -39,7 +39,7 @@ local function grown(name, head)
     local preset = require("presets." .. name)
     if name ~= "ponytail" then return preset.grow(head, {}, { count = params.count }) end
     local style, hair = preset.grow(head, {}, {}, { count = params.count })
-    styling.tail_ends(hair:smooth{ iterations = 2 }, 1, "ponytail")
+    styling.tail_ends(hairdo.cull_missed(hair, style:scalp()):smooth{ iterations = 2 }, 1, "ponytail")
     return style, styling.set_width(hair, 0.00028), { color = "#6b4a2f" }
 end
 

@@ -23,7 +23,8 @@ return styling.preset(..., {
             { height = v.height, tightness = v.tightness, length = v.length, fullness = v.fullness,
                 lift = 0.024, seed = v.seed },
             { scalp = o.scalp, resolution = o.resolution }, { count = o.count })
-        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }:guides{ count = 500 }
+        hairdo.cull_missed(hair, o.scalp):resample{ step = 0.006 }:smooth{ iterations = 3 }
+        hair:guides{ count = 500 }
         if v.wave > 0 then
             hair:wave{ radius = v.wave, wavelength = 0.09, start = 0.2, ramp = 0.1, keep_length = false,
                 seed = v.seed }

@@ -157,7 +157,7 @@ function ponytail.grow(head, values, options, growth)
     local all = { count = options and options.count, length = 0.6, seed = values.seed,
         layer = 0.003 + 0.014 * (1 - values.tightness), cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
-    local hair = styling.set_width(hairdo.cull_missed(style:grow(all), style:scalp()), 0.00022)
+    local hair = styling.set_width(style:grow(all), 0.00022)
     if not (options and options.hard) then styling.soften(style, hair, "tied", values.seed) end
     return style, hair, tie
 end
@@ -171,8 +171,8 @@ if ... ~= "presets.ponytail" then
     local options = { scalp = styling.scalp(head, params.unit > 0 and params.unit or nil),
         resolution = params.resolution }
     local style, hair, tie = ponytail.grow(head, values, options, { count = params.count })
-    styling.tail_ends(hair:smooth{ iterations = 2 }, values.seed, "ponytail")
-    hair:push_out{ head = style, clearance = 0.001 }
+    hairdo.cull_missed(hair, style:scalp()):smooth{ iterations = 2 }
+    styling.tail_ends(hair, values.seed, "ponytail"):push_out{ head = style, clearance = 0.001 }
     hairdo.finish(style, hair, params, { hairdo.ring(style:scalp(), tie) }, styling.look("tied"))
 end
 
