@@ -48,9 +48,13 @@ function tails.end_ring(scalp, spine, length, radius)
         step = math.sqrt(step)
         far = far + step * unit
         if far >= length or i == #spine then
-            for k = 1, 3 do d[k] = d[k] / step end
+            local back, center = math.max(far - length, 0) / unit, {}
+            for k = 1, 3 do
+                d[k] = d[k] / step
+                center[k] = b[k] - back * d[k]
+            end
             local average = unit * scalp:scale()
-            return hairdo.ring_around(scalp, b, d, radius / average, 0.0026 / average)
+            return hairdo.ring_around(scalp, center, d, radius / average, 0.0026 / average)
         end
     end
 end

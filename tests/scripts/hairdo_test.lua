@@ -778,3 +778,31 @@ test("a style of curled hair flows as its courses do, with its curls as an opera
     expect.equal(again.hand, "left")
     expect.equal(refit.style(hair, bald, { guides = 60, resolution = 8000, curls = false }).curl, nil)
 end)
+
+test("the ring at the end of a braid lies on its spine, as far on as the braid is long", function()
+    local tails = require "tails"
+    for _, unit in ipairs{ 1, 0.01 } do
+        local large = lissom.shapes.head{ vertices = 3000 }:transform{ scale = 1 / unit }
+        local scalp = lissom.scalp(large, { unit = unit })
+        local spine = {}
+        for i, down in ipairs{ 0, 0.05, 0.17, 0.4 } do spine[i] = { 0.3 / unit, -down / unit, 0 } end
+        local box = tails.end_ring(scalp, spine, 0.21, 0.006):bounds()
+        expect.near(0.5 * (box.min[2] + box.max[2]) * unit, -0.21, 1e-4)
+        expect.near(0.5 * (box.min[1] + box.max[1]) * unit, 0.3, 1e-4)
+        expect.near(0.5 * (box.max[1] - box.min[1]) * unit, 0.0086, 2e-4)
+    end
+end)
+
+test("hair that missed its tie and hangs free is taken away, that on the head stays", function()
+    local scalp = lissom.scalp(lissom.shapes.head{ vertices = 3000 })
+    local points, counts, unit = {}, {}, scalp:unit()
+    for i, lift in ipairs{ 0.01, 0.02, 0.08 } do
+        for _, place in ipairs{ { azimuth = 170, elevation = 10 * i },
+            { azimuth = 170, elevation = 10 * i, lift = lift } } do
+            local p = scalp:at(place)
+            points[#points + 1] = { p[1] * unit, p[2] * unit, p[3] * unit }
+        end
+        counts[i] = 2
+    end
+    expect.equal(#hairdo.cull_missed(lissom.strands{ points = points, counts = counts }, scalp), 2)
+end)
