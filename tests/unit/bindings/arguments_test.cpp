@@ -355,6 +355,16 @@ TEST_CASE("what does not fit is named with what is expected") {
         "table)");
 }
 
+TEST_CASE("an argument that is missing after a list has no value") {
+    test::LuaState lua;
+    const char* const bar =
+        "local bar = lissom.shapes.bar{} local d = lissom.deformer(bar) "
+        "local h = d:add_handle(bar:region{ vertices = { 1 } }) ";
+    CHECK(lua.run((bar + std::string("h:follow{ { 0, 0, 0 }, { 0, 1, 0 } }")).c_str()) ==
+          "test:1: bad argument #2 to 'follow' (finite number expected, got no value) "
+          "[invalid_argument]");
+}
+
 TEST_CASE("arguments by position") {
     LuaState lua;
     CHECK(lua.run("lissom.load()") ==

@@ -45,8 +45,12 @@ int Parser::read_argument(int slot, int index, int given) {
     const Parameter& p = *entry_.slots[slot].parameter;
     Value& value = call_.values_[slot];
     const ValuePlace place{index - (entry_.type ? 1 : 0), p.name.c_str(), 0};
-    if (index > given || lua_isnil(L_, index)) {
-        if (p.required && !entry_.function->named_arguments) refuse_value(call_, p, index, place);
+    // What lies above the last argument are lists that were read before.
+    const bool none = index > given;
+    if (none || lua_isnil(L_, index)) {
+        const bool refused = p.required && !entry_.function->named_arguments;
+        if (refused && none) refuse_none(call_, p, place);
+        if (refused) refuse_value(call_, p, index, place);
         fill_default(p, value);
         return index + 1;
     }

@@ -43,6 +43,12 @@ void refuse_value(const Call& call, const Parameter& p, int index, const ValuePl
     refuse(call, place, expected, hinted);
 }
 
+void refuse_none(const Call& call, const Parameter& p, const ValuePlace& place) {
+    char expected[kTextSize];
+    compose_text(expected, [&] { return expectation(p); });
+    refuse(call, place, expected, "no value");
+}
+
 void refuse_missing(const Call& call, const Parameter& p, const ValuePlace& place) {
     char text[kTextSize];
     compose_text(text, [&] {

@@ -21,6 +21,8 @@ struct ValuePlace {
 /// Refuses the value at stack index `index`, which `p` does not accept.
 [[noreturn]] void refuse_value(const Call& call, const Parameter& p, int index,
                                const ValuePlace& place);
+/// Refuses a call that ends before the argument `p`.
+[[noreturn]] void refuse_none(const Call& call, const Parameter& p, const ValuePlace& place);
 /// Refuses a call without the option `p`.
 [[noreturn]] void refuse_missing(const Call& call, const Parameter& p, const ValuePlace& place);
 
