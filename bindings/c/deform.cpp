@@ -45,6 +45,8 @@ DeformOptions deform_options(const lissom_deformer_options* given) {
     options.transition = taken.transition;
     options.loose = static_cast<UnheldParts>(taken.loose);
     options.free_rings = taken.free_rings;
+    require(taken.level_vertices <= 1'000'000'000, "level_vertices must be at most 1,000,000,000");
+    options.level_vertices = static_cast<Index>(taken.level_vertices);
     return options;
 }
 

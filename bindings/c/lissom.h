@@ -844,6 +844,10 @@ typedef struct lissom_deformer_options {
     /// Rings of vertices, 0 to 10, that handles release if they nearly touch another: handles that
     /// go different ways would tear the surface between.
     int32_t free_rings;
+    /// Above 0, a region of at least four times as many vertices is deformed on two levels: the
+    /// method works on a thinned surface of about so many, and all others follow it. 40,000 is good
+    /// for large meshes; 0, or at least 100.
+    size_t level_vertices;
 } lissom_deformer_options;
 
 typedef struct lissom_handle_options {

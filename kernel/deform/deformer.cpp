@@ -37,6 +37,8 @@ void require_options(const DeformOptions& o) {
     require(o.transition >= 0.0 && std::isfinite(o.transition),
             "transition must be a distance of 0 or more");
     require(o.volume >= 0.0 && o.volume <= 1.0, "volume must be from 0 to 1");
+    require(o.level_vertices == 0 || o.level_vertices >= 100,
+            "level_vertices must be 0 or at least 100");
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
@@ -65,6 +67,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.flat != defaults.flat, "flat");
     refuse(o.volume != defaults.volume, "volume");
     refuse(o.free_rings != defaults.free_rings, "free_rings");
+    refuse(o.level_vertices != defaults.level_vertices, "levels");
     refuse(o.loose == UnheldParts::follow, "loose = follow");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");

@@ -210,7 +210,7 @@ void add_free(const FrameInput& motion, HandleBasis& basis) {
 std::vector<Vec3> solve_first_directly(Deformer& deformer, const Context& given) {
     auto& s = DeformerAccess::state(deformer);
     const Context& context = s.chosen(given);
-    require_implicit(s.options(), "the first system");
+    require_whole_surface(s.options(), "the first system");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
         const TargetRhs& asked = target_rhs(prepared, s.poses.targets, s.scratch.state().asked);
@@ -221,7 +221,7 @@ std::vector<Vec3> solve_first_directly(Deformer& deformer, const Context& given)
 HandleBasis basis_of(Deformer& deformer, const Context& given) {
     auto& s = DeformerAccess::state(deformer);
     const Context& context = s.chosen(given);
-    require_implicit(s.options(), "the handle basis");
+    require_whole_surface(s.options(), "the handle basis");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
         const TargetRhs& asked = target_rhs(prepared, s.poses.targets, s.scratch.state().asked);

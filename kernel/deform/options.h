@@ -39,6 +39,9 @@ enum class FlatVertices { extended, displaced };
 /// follows the nearest held part as a rigid piece.
 enum class UnheldParts { error, stay, follow };
 
+/// A good DeformOptions::level_vertices for large meshes.
+inline constexpr Index kLevelVertices = 40'000;
+
 /// Method by which the region follows its handles. All but `implicit` are those that the thesis
 /// compares (sections 2.3 to 2.5), and need DeformOptions::comparison. They use the same operators
 /// and keep the same promises: hard positions, the rest shape to the bit, nothing moves
@@ -110,6 +113,13 @@ struct DeformOptions {
     /// Width of the zone along the region's outline over which the deformation fades into the fixed
     /// part, in geodesic distance; in units of length.
     double transition = 0.0;
+    /// Above 0, a region of at least four times as many vertices is deformed on two levels: the
+    /// method works on a thinned surface of about so many vertices, and all others follow it with
+    /// their details. That takes less time and memory, for a small difference. Handles hold their
+    /// vertices exactly. Constraints of points, soft handles, falloffs, stiffness, a transition,
+    /// loose parts that follow, and handles without position or gradient need the whole surface,
+    /// which then serves with a warning. 0, or at least 100.
+    Index level_vertices = 0;
     /// Makes `method` unless it is `implicit`; null refuses the others as `unsupported`.
     /// make_comparison of kernel/thesis makes all of them.
     ComparisonMaker comparison = nullptr;

@@ -206,6 +206,62 @@ void prepare_implicit(Preparation& next, FormerSystems former, Progress& progres
     count_costs(next, method);
 }
 
+// Warns of constraints that need the whole surface though levels were asked for.
+bool may_have_levels(const RestShape& rest, const ConstraintSet& constraints,
+                     const Context& context) {
+    if (!wants_levels(rest.options(), rest.region().size())) return false;
+    const std::string reason = refused_levels(rest.options(), constraints);
+    if (reason.empty()) return true;
+    context.log(LogLevel::warning,
+                "levels: " + reason + " need the whole surface, which is solved instead");
+    return false;
+}
+
+// Returns false, and changes nothing, if the thinned surface cannot be prepared.
+bool prepare_on_levels(Preparation& next, const Context& context) {
+    const auto start = Clock::now();
+    std::optional<LevelMethod> levels = prepare_levels(next, context);
+    if (!levels) return false;
+    DeformStats& costs = next.costs;
+    costs = levels->coarse->costs;
+    costs.level_vertices = levels->thinned.vertex_count();
+    costs.assemble_seconds =
+        seconds_since(start) - costs.first_factor_seconds - costs.second_factor_seconds;
+    costs.constrained_vertices = 0;
+    for (const Index v : next.patch().of_region) {
+        costs.constrained_vertices += next.known.position[v];
+    }
+    costs.free_vertices = count_of(next.patch().of_region) - costs.constrained_vertices;
+    next.method = *std::move(levels);
+    return true;
+}
+
+// The holders of a patch, without a method.
+std::shared_ptr<Preparation> held_patch(const std::shared_ptr<const RestShape>& rest,
+                                        const std::shared_ptr<const ConstraintSet>& constraints,
+                                        bool on_levels, const Context& context) {
+    auto next = std::make_shared<Preparation>();
+    next->rest = rest;
+    next->constraints = constraints;
+    const ConstraintSet holds_in_fact = holding_in_fact(*rest, *constraints);
+    next->work = on_levels ? rest->work : working_patch(*rest, holds_in_fact);
+    find_who_holds(*next, holds_in_fact, context);
+    return next;
+}
+
+// Charges stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
+void charge_preparation(Preparation& next, FormerSystems& systems, const Context& context) {
+    constexpr std::size_t kBytesPerVertex = 1000;
+    next.hold = MemoryHold(context.memory(), "preparing a deformation");
+    const std::size_t bytes = next.rest->positions.size() * kBytesPerVertex;
+    try {
+        next.hold.resize(bytes);
+    } catch (const Error&) {
+        systems.release_assembly();
+        next.hold.resize(bytes);
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const Preparation> prepare_deformation(
@@ -223,23 +279,14 @@ std::shared_ptr<const Preparation> prepare_next(std::shared_ptr<const Preparatio
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());
     require_plain_holds(*constraints, rest->options());
-    auto next = std::make_shared<Preparation>();
-    next->rest = std::move(rest);
-    next->constraints = std::move(constraints);
-    const ConstraintSet holds_in_fact = holding_in_fact(*next->rest, *next->constraints);
-    next->work = working_patch(*next->rest, holds_in_fact);
-    find_who_holds(*next, holds_in_fact, context);
+    const bool on_levels = may_have_levels(*rest, *constraints, context);
+    std::shared_ptr<Preparation> next = held_patch(rest, constraints, on_levels, context);
     FormerSystems systems(std::exchange(former, nullptr));
-    // Stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
-    constexpr std::size_t kBytesPerVertex = 1000;
-    next->hold = MemoryHold(context.memory(), "preparing a deformation");
-    const std::size_t bytes = next->rest->positions.size() * kBytesPerVertex;
-    try {
-        next->hold.resize(bytes);
-    } catch (const Error&) {
-        systems.release_assembly();
-        next->hold.resize(bytes);
+    if (on_levels) {
+        if (prepare_on_levels(*next, context)) return next;
+        next = held_patch(rest, constraints, false, context);
     }
+    charge_preparation(*next, systems, context);
     if (next->rest->options().method == DeformMethod::implicit) {
         prepare_implicit(*next, std::move(systems), progress, context);
     } else {
@@ -289,6 +336,13 @@ void refuse_singular(const Patch& patch, const Error& error, const std::vector<I
                 "the constraints do not determine the connected part of " + names +
                     "; add a handle with a gradient there",
                 std::move(vertices));
+}
+
+void require_whole_surface(const DeformOptions& options, const char* what) {
+    require_implicit(options, what);
+    if (options.level_vertices == 0) return;
+    throw Error(ErrorCode::unsupported,
+                std::string(what) + " needs the whole surface; make the deformer without levels");
 }
 
 void require_implicit(const DeformOptions& options, const char* what) {

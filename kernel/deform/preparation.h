@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "kernel/deform/holds/handle_gaps.h"
 #include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/holds/loose_parts.h"
+#include "kernel/deform/levels/level_method.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/lazy.h"
 #include "kernel/deform/patch/patch.h"
@@ -98,14 +101,16 @@ struct Preparation {
     std::vector<std::pair<Index, Index>> asked;
     /// Rows of the region whose vertices stay at rest, as nothing that moves holds them.
     std::vector<Index> resting_rows;
-    std::variant<ImplicitMethod, ComparedMethod> method;
+    std::variant<ImplicitMethod, ComparedMethod, LevelMethod> method;
     /// Costs of this preparation alone.
     DeformStats costs;
 
     const Patch& patch() const { return work->patch; }
     const Rings& rings() const { return work->rings; }
-    /// Null for a comparison method.
+    /// Null for a comparison method, and on two levels.
     const ImplicitMethod* implicit() const { return std::get_if<ImplicitMethod>(&method); }
+    /// Null on one level.
+    const LevelMethod* levels() const { return std::get_if<LevelMethod>(&method); }
     LinearProblem problem() const;
     GradientLoop gradient_loop() const;
 };
@@ -126,12 +131,25 @@ std::shared_ptr<const Preparation> prepare_next(std::shared_ptr<const Preparatio
 /// Throws `unsupported`, with `what` as subject, unless the method is the implicit one.
 void require_implicit(const DeformOptions& options, const char* what);
 
+/// The same, and throws too if the options ask for levels.
+void require_whole_surface(const DeformOptions& options, const char* what);
+
 /// Throws `unsupported` if the options name a comparison method without its maker.
 void require_comparison(const DeformOptions& options);
 
 /// Factors the comparison method that the options name. Errors: unsupported; as
 /// prepare_deformation.
 void prepare_comparison(Preparation& next, const Context& context);
+
+/// Whether DeformOptions::level_vertices has an effect on a region of this size.
+bool wants_levels(const DeformOptions& options, Index region_vertices);
+
+/// Returns the constraints and options that need the whole surface, or an empty text.
+std::string refused_levels(const DeformOptions& options, const ConstraintSet& constraints);
+
+/// Thins out the patch and factors that surface. Returns nothing if it cannot be prepared, as of a
+/// patch that is no manifold; then the whole surface tells why. Errors: cancelled; memory_limit.
+std::optional<LevelMethod> prepare_levels(const Preparation& next, const Context& context);
 
 /// Checks `holds` against the options: unsupported if a comparison method cannot hold them.
 void require_plain_holds(const ConstraintSet& constraints, const DeformOptions& options);

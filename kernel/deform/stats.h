@@ -17,6 +17,8 @@ struct DeformStats {
     Index extended_vertices = 0;
     /// Vertices that a refinement of coarse borders added.
     Index refined_vertices = 0;
+    /// Vertices of the thinned surface (DeformOptions::level_vertices); 0 on one level.
+    Index level_vertices = 0;
     std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;
     double assemble_seconds = 0, first_factor_seconds = 0, second_factor_seconds = 0;
     double basis_seconds = 0;

@@ -42,6 +42,7 @@ void add(Hasher& hasher, const DeformOptions& o) {
         hasher.add(number);
     }
     if (o.volume != 0.0) hasher.add(o.volume);
+    if (o.level_vertices != 0) hasher.add(o.level_vertices);
     hasher.add(o.subdivide_borders);
     hasher.add(o.scale_free);
 }

@@ -119,6 +119,7 @@ const std::vector<Names>& room_orders() {
          "kernel/deform/stats",
          "kernel/deform/pipeline",
          "kernel/deform/rest_shape",
+         "kernel/deform/levels",
          "kernel/deform/preparation",
          "kernel/deform/deform_report",
          "kernel/deform/frame",

@@ -457,6 +457,45 @@ void run_small_region(Report& report, const Mesh& whole) {
         {name + "full frame / that of a mesh of 5K", frame_in_large / frame_alone, "x", 1.5});
 }
 
+double rms_difference(const Task& task, const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+    return std::sqrt(sum / double(a.size())) / surface_radius(task.mesh);
+}
+
+/// Two levels against the whole surface.
+void run_levels(Report& report, const Task& task) {
+    const Context context = context_with(2);
+    DeformOptions options;
+    options.level_vertices = kLevelVertices;
+    std::optional<Drag> whole, levels;
+    const auto made = [&](std::optional<Drag>& drag, const DeformOptions& how) {
+        drag.reset();
+        return seconds([&] { drag.emplace(task, how, context); });
+    };
+    const std::string name =
+        "levels, " + std::to_string(task.mesh.vertex_count() / 1000) + "K, 2 threads: ";
+    const Quotient preparation = quotient_of(
+        1, [&] { return made(whole, {}); }, [&] { return made(levels, options); });
+    report.add_ratio(name + "preparation of the whole / on levels", "the whole", preparation, 6.0,
+                     Better::more);
+    const Quotient draft = quotient_of(
+        5, [&] { return whole->frame(); }, [&] { return levels->frame(); });
+    report.add_ratio(name + "draft of the whole / on levels", "the whole", draft, 3.0,
+                     Better::more);
+    const Quotient full = quotient_of(
+        3, [&] { return whole->full_solve(); }, [&] { return levels->full_solve(); });
+    report.add_ratio(name + "full frame of the whole / on levels", "the whole", full, 3.0,
+                     Better::more);
+    report.add({name + "factors on levels / of the whole",
+                double(stats_of(levels->deformer()).factor_bytes) /
+                    double(stats_of(whole->deformer()).factor_bytes),
+                "x", 0.5});
+    report.add({name + "rms difference",
+                rms_difference(task, whole->deformer().positions(), levels->deformer().positions()),
+                "radii", 0.003});
+}
+
 void run_armadillo(Report& report) {
     std::optional<Mesh> mesh = mesh_of(thesis_table()[4]);
     if (!mesh) {
@@ -475,6 +514,7 @@ void run_armadillo(Report& report) {
     *mesh = smoother(*mesh);
     for (const int threads : {1, 2}) run_size(report, Task(*mesh), threads, 9);
     *mesh = smoother(*mesh);
+    run_levels(report, Task(*mesh));
     run_small_region(report, *mesh);
 }
 

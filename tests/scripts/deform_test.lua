@@ -362,6 +362,30 @@ test("parts that nothing holds: an error, they stay, or they follow", function()
     expect.truthy(math.abs(before[1] - after[1]) > 0.05)
 end)
 
+test("a large mesh is deformed on two levels: a thinned surface, and all that follows it", function()
+    local function bent(options)
+        local mesh = lissom.shapes.bar{ across = 12, along = 60 }
+        local deformer = lissom.deformer(mesh, options)
+        deformer:add_handle(mesh:region("bottom"))
+        local top = deformer:add_handle(mesh:region("top"))
+        top:rotate{ axis = "x", angle = 60 }
+        top:translate(0, 0, -1)
+        return deformer:solve(), deformer
+    end
+    local whole, levels = bent{}, bent{ levels = "auto", level_vertices = 700 }
+    local off = 0
+    for i = 1, #whole do
+        local a, b = { whole:position(i) }, { levels:position(i) }
+        off = math.max(off, math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2))
+    end
+    expect.truthy(off > 1e-6 and off < 0.1 * whole:size())
+    -- Too few vertices for a thinned surface of 40,000.
+    expect.equal(bent{ levels = "auto" }:hash(), whole:hash())
+    -- What needs the whole surface says so.
+    local _, deformer = bent{ levels = "auto", level_vertices = 700 }
+    expect.error(function() deformer:basis() end, "needs the whole surface")
+end)
+
 test("a report says what a result did, and handles that nearly touch tear", function()
     local mesh = lissom.shapes.bar{ across = 4, along = 20 }
     local low, high = mesh:region{ box = { max = { nil, 0.1, nil } } },

@@ -284,6 +284,7 @@ std::vector<Record> kernel_records() {
           {"integer", "extended_vertices", "Flat vertices with an unknown beside them."},
           {"integer", "inserted_vertices", "Vertices inserted at corners of the boundary."},
           {"integer", "subdivided_vertices", "Vertices that a refinement of coarse borders added."},
+          {"integer", "level_vertices", "Vertices of the thinned surface; 0 without levels."},
           {"integer", "zero_area_faces", "Faces without area."},
           {"integer", "first_nonzeros", "Entries of the first system's factor."},
           {"integer", "second_nonzeros", "Entries of the second system's factor."},

@@ -316,6 +316,7 @@ int stats(Call& call) {
                   {"extended_vertices", at(s.extended_vertices)},
                   {"inserted_vertices", at(s.inserted_vertices)},
                   {"subdivided_vertices", at(s.refined_vertices)},
+                  {"level_vertices", at(s.level_vertices)},
                   {"zero_area_faces", at(s.zero_area_faces)},
                   {"first_nonzeros", s.first_nonzeros},
                   {"second_nonzeros", s.second_nonzeros},

@@ -34,6 +34,9 @@ DeformOptions deform_options(const Call& call) {
     take_choice(call, "flat", options.flat);
     options.loose = call.choice<UnheldParts>("loose");
     if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
+    if (call.integer("levels") == 1) {
+        options.level_vertices = call.integer("level_vertices");
+    }
     take_number(call, "displacement", options.displacement);
     options.transition = call.number("transition");
     take_number(call, "volume", options.volume);
@@ -113,6 +116,16 @@ std::vector<Parameter> deform_parameters() {
                 "different ways would tear it. report says how many help.")
             .between(0, 10)
             .optional("0"),
+        choice("levels", {"none", "auto"},
+               "auto deforms a very large region on two levels, if it has at least four times "
+               "`level_vertices`: the method works on a thinned surface, and all vertices follow "
+               "it with their details, several times as fast and in less memory. Handles hold "
+               "their vertices exactly. What needs the whole surface, as soft handles do, gets "
+               "it, with a warning.")
+            .defaults("none"),
+        integer("level_vertices", "Vertices of the thinned surface.")
+            .at_least(100)
+            .defaults(kLevelVertices),
         boolean("subdivide_borders",
                 "Works on a surface that is subdivided along borders of handles that are coarse "
                 "beside the region; the mesh keeps its faces.")

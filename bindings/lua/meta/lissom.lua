@@ -154,6 +154,7 @@
 ---@field extended_vertices integer Flat vertices with an unknown beside them.
 ---@field inserted_vertices integer Vertices inserted at corners of the boundary.
 ---@field subdivided_vertices integer Vertices that a refinement of coarse borders added.
+---@field level_vertices integer Vertices of the thinned surface; 0 without levels.
 ---@field zero_area_faces integer Faces without area.
 ---@field first_nonzeros integer Entries of the first system's factor.
 ---@field second_nonzeros integer Entries of the second system's factor.
@@ -4447,6 +4448,8 @@ function lissom.shapes.head(options) end
 ---@field volume? number Share of the thickness at rest that is kept, by springs across the inside: twisted and bent solids keep their volume and get no waist. It acts between the two sides of the region, and fades beside handles that change the size; a sheet has no inside. 1 keeps all of it, at about a third of a frame; keep_volume changes it. Compared in examples/deform/volume.png. Default: 0.
 ---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
+---@field levels? "none"|"auto" auto deforms a very large region on two levels, if it has at least four times `level_vertices`: the method works on a thinned surface, and all vertices follow it with their details, several times as fast and in less memory. Handles hold their vertices exactly. What needs the whole surface, as soft handles do, gets it, with a warning. Default: "none".
+---@field level_vertices? integer Vertices of the thinned surface. Default: 40000.
 ---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" Rotation of a vertex whose surroundings are flat: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
 ---@field displacement? number Distance by which degenerate vertices are displaced, and beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
@@ -4473,6 +4476,8 @@ function lissom.deform(mesh, options) end
 ---@field volume? number Share of the thickness at rest that is kept, by springs across the inside: twisted and bent solids keep their volume and get no waist. It acts between the two sides of the region, and fades beside handles that change the size; a sheet has no inside. 1 keeps all of it, at about a third of a frame; keep_volume changes it. Compared in examples/deform/volume.png. Default: 0.
 ---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
+---@field levels? "none"|"auto" auto deforms a very large region on two levels, if it has at least four times `level_vertices`: the method works on a thinned surface, and all vertices follow it with their details, several times as fast and in less memory. Handles hold their vertices exactly. What needs the whole surface, as soft handles do, gets it, with a warning. Default: "none".
+---@field level_vertices? integer Vertices of the thinned surface. Default: 40000.
 ---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" Rotation of a vertex whose surroundings are flat: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
 ---@field displacement? number Distance by which degenerate vertices are displaced, and beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.

@@ -121,7 +121,7 @@ AvoidedContacts solve_avoiding_contacts(Deformer& deformer, const Mesh& mesh,
     auto& state = DeformerAccess::state(deformer);
     const Context& context = state.chosen(given);
     return with_memory_errors([&] {
-        require_implicit(state.options(), "avoiding contacts");
+        require_whole_surface(state.options(), "avoiding contacts");
         const auto prepared = state.prepare(context);
         ContactSearch& search = contact_search(state.contacts, state.rest, mesh, context);
         DeformFrame frame =

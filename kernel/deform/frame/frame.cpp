@@ -140,6 +140,9 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
                           FrameScratch& scratch, const Context& context) {
     const Preparation& prepared = required(preparation, poses);
     if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
+    if (prepared.levels()) {
+        return solve_levels(preparation, poses, scratch.state(), FrameQuality::preview, context);
+    }
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch.state(), context);
     const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.state().asked);
     FrameInput motion(prepared, poses, asked, std::exchange(scratch.state().differences, {}));
@@ -161,6 +164,7 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
     if (quality == FrameQuality::preview) return preview_frame(preparation, poses, given, context);
     FrameScratch::State& scratch = given.state();
     if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
+    if (prepared.levels()) return solve_levels(preparation, poses, scratch, quality, context);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch, context);
     const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.asked);
     FrameInput motion(prepared, poses, asked, std::exchange(scratch.differences, {}));

@@ -111,6 +111,7 @@ std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given)
     require_poses(*frame.preparation->constraints, frame.poses);
     const Preparation& prepared = *frame.preparation;
     FrameScratch::State& scratch = given.state();
+    if (prepared.levels()) return level_gradients(prepared, frame.poses, scratch);
     const FrameInput motion(prepared, frame.poses,
                             target_rhs(frame.preparation, frame.poses.targets, scratch.asked));
     scratch.draft.is_there = false;

@@ -20,6 +20,7 @@
 #include "kernel/deform/frame/frame_input.h"
 #include "kernel/deform/frame/moving_surface.h"
 #include "kernel/deform/holds/poses.h"
+#include "kernel/deform/options.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"
@@ -127,6 +128,8 @@ struct FrameScratch::State {
     std::vector<Mat4> differences;
     std::vector<Vec4> turns;
     RotationSystem::Scratch second;
+    /// For the thinned surface of LevelMethod.
+    std::unique_ptr<FrameScratch> coarse;
 };
 
 const TargetRhs& target_rhs(const std::shared_ptr<const Preparation>& preparation,
@@ -235,6 +238,14 @@ void limit_refinement(const SecondInput& input, FrameScratch::State& scratch,
 DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation,
                            const Poses& poses, FrameScratch::State& scratch,
                            const Context& context);
+
+/// A frame on two levels (levels/level_method.h).
+DeformFrame solve_levels(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
+                         FrameScratch::State& scratch, FrameQuality quality,
+                         const Context& context);
+/// Deformation gradients of the region on two levels: the rotations by which details turn.
+std::vector<Mat3> level_gradients(const Preparation& prepared, const Poses& poses,
+                                  FrameScratch::State& scratch);
 
 /// Moves parts that follow the surface, whose other vertices `positions` has.
 void place_followers(const Preparation& prepared, const Poses& poses, std::vector<Vec3>& positions);

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "kernel/mesh/query/nearest_on_triangle.h"
+
 namespace lissom {
 namespace {
 
@@ -18,44 +20,6 @@ constexpr double kSamePlace = 1e-9;
 
 double squared_distance(const Box& box, const Vec3& p) {
     return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
-}
-
-struct Candidate {
-    Vec3 barycentric;
-    double squared_distance;
-};
-
-Candidate nearest_on_edge(const std::array<Vec3, 3>& corners, int from, const Vec3& p) {
-    const int to = (from + 1) % 3;
-    const Vec3 along = corners[to] - corners[from];
-    const double square = along.squaredNorm();
-    const double t =
-        square > 0.0 ? std::clamp((p - corners[from]).dot(along) / square, 0.0, 1.0) : 0.0;
-    Vec3 barycentric = Vec3::Zero();
-    barycentric[from] = 1.0 - t;
-    barycentric[to] = t;
-    return {barycentric, (corners[from] + t * along - p).squaredNorm()};
-}
-
-// Returns the foot of the perpendicular if it lies inside, else the nearest point of an edge; the
-// latter also for triangles with almost no area.
-Candidate nearest_on_triangle(const std::array<Vec3, 3>& corners, const Vec3& p) {
-    const Vec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = p - corners[0];
-    const Vec3 normal = ab.cross(ac);
-    const double square = normal.squaredNorm();
-    if (square > kBoxRounding * kBoxRounding * ab.squaredNorm() * ac.squaredNorm()) {
-        const double b = ap.cross(ac).dot(normal) / square, c = ab.cross(ap).dot(normal) / square;
-        if (b >= 0.0 && c >= 0.0 && b + c <= 1.0) {
-            const Vec3 foot = corners[0] + b * ab + c * ac;
-            return {{1.0 - b - c, b, c}, (foot - p).squaredNorm()};
-        }
-    }
-    Candidate best = nearest_on_edge(corners, 0, p);
-    for (const int from : {1, 2}) {
-        const Candidate other = nearest_on_edge(corners, from, p);
-        if (other.squared_distance < best.squared_distance) best = other;
-    }
-    return best;
 }
 
 // The edge function of two sheared points. Both triangles at an edge see the same value with

@@ -197,7 +197,10 @@ void describe(Archive& a, DeformOptions& options) {
     a.number("displacement", options.displacement);
     a.flag("scale_free", options.scale_free);
     a.number("transition", options.transition);
-    std::optional<double> volume;
+    std::optional<double> levels, volume;
+    if (options.level_vertices != 0) levels = options.level_vertices;
+    a.number("level_vertices", levels);
+    options.level_vertices = static_cast<Index>(std::clamp(levels.value_or(0.0), 0.0, 1e9));
     if (options.volume != 0.0) volume = options.volume;
     a.number("volume", volume);
     options.volume = volume.value_or(0.0);

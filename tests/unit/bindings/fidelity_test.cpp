@@ -25,7 +25,7 @@ void note(Names& names, const char* name, bool differs) {
 Names of_deformer() {
     const auto& [method, second, size, volume, weights, refine, coherence, coherence_weight,
                  threshold, flat, loose, free_rings, borders, displacement, scale_free, transition,
-                 comparison] = DeformOptions{};
+                 level_vertices, comparison] = DeformOptions{};
     const DeformOptions t = thesis_deform_options();
     Names names;
     note(names, "method", method != t.method);
@@ -43,6 +43,7 @@ Names of_deformer() {
     note(names, "subdivide_borders", borders != t.subdivide_borders);
     note(names, "displacement", displacement != t.displacement);
     note(names, "transition", transition != t.transition);
+    note(names, "levels", level_vertices != t.level_vertices);
     // A matter without an option.
     CHECK(scale_free != t.scale_free);
     CHECK((comparison == t.comparison));

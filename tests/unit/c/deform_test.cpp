@@ -357,6 +357,9 @@ TEST_CASE("parts that nothing holds are an error, stay or follow, as the options
     options.loose = static_cast<lissom_loose_parts>(7);
     CHECK(lissom_deformer_create(host, mesh, {0}, &options, &refused) == LISSOM_INVALID_ARGUMENT);
     options.loose = LISSOM_LOOSE_ERROR;
+    options.level_vertices = 50;
+    CHECK(lissom_deformer_create(host, mesh, {0}, &options, &refused) == LISSOM_INVALID_ARGUMENT);
+    options.level_vertices = 0;
     for (const std::int32_t rings : {-1, 11}) {
         options.free_rings = rings;
         CHECK(lissom_deformer_create(host, mesh, {0}, &options, &refused) ==
