@@ -1,7 +1,8 @@
 #include "kernel/deform/levels/thinned_surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "kernel/mesh/measure/measures.h"
@@ -17,6 +18,11 @@ constexpr double kLonger = 1.25;
 constexpr double kOffSurface = 30.0;
 // Rounds in a row without a merge, after which no more can be made.
 constexpr int kIdleRounds = 12;
+// Slivers: passes of flips, angles beyond half a turn that count, and the cosine of the turn from
+// the faces of an edge to those of its other diagonal, at most.
+constexpr int kFlipPasses = 6;
+constexpr double kFlipMargin = 1e-3;
+constexpr double kFlatCosine = 0.9;
 constexpr std::size_t kBytesPerVertex = 800;
 
 class SurfaceThinning {
@@ -59,6 +65,26 @@ class SurfaceThinning {
             progress.update(double(first - count_) / std::max(1, first - wanted));
             idle = count_ < before ? 0 : idle + 1;
             limit *= kLonger;
+        }
+    }
+
+    // Turns edges of slivers over: operators of slivers are poor.
+    void flip_slivers(const Context& context) {
+        bool changed = true;
+        for (int pass = 0; pass < kFlipPasses && changed; ++pass) {
+            changed = false;
+            for (std::size_t f = 0; f < editor_.faces().size(); ++f) {
+                context.checkpoint();
+                for (std::size_t k = 0; k < 3 && editor_.faces()[f].alive(); ++k) {
+                    const Triangle& corners = editor_.faces()[f].vertices;
+                    const Index a = corners[k], b = corners[(k + 1) % 3];
+                    if (a > b) continue;
+                    const TriangleEditor::Edge edge = editor_.edge(a, b);
+                    if (!editor_.can_flip(edge) || !is_better_flipped(edge)) continue;
+                    editor_.flip(edge);
+                    changed = true;
+                }
+            }
         }
     }
 
@@ -117,6 +143,29 @@ class SurfaceThinning {
         return along.squaredNorm() + kOffSurface * off * off;
     }
 
+    // Whether the two angles opposite of an edge are more than half a turn together (Delaunay), on
+    // a surface that is nearly flat there and stays so.
+    bool is_better_flipped(const TriangleEditor::Edge& edge) const {
+        const Vec3 a = editor_.position(edge.a), b = editor_.position(edge.b);
+        const Vec3 c = editor_.position(editor_.opposite(edge.left, edge));
+        const Vec3 d = editor_.position(editor_.opposite(edge.right, edge));
+        if (part_[at(edge.a)] == part_[at(edge.b)] &&
+            angle_at(c, a, b) + angle_at(d, a, b) > kPi + kFlipMargin) {
+            const Vec3 before =
+                (b - a).cross(c - a).normalized() + (d - a).cross(b - a).normalized();
+            const Vec3 first = (d - c).cross(b - c), second = (c - d).cross(a - d);
+            const double least = kFlatCosine * before.norm();
+            return first.dot(before) > least * first.norm() &&
+                   second.dot(before) > least * second.norm();
+        }
+        return false;
+    }
+
+    static double angle_at(const Vec3& corner, const Vec3& p, const Vec3& q) {
+        const Vec3 to_p = p - corner, to_q = q - corner;
+        return std::atan2(to_p.cross(to_q).norm(), to_p.dot(to_q));
+    }
+
     Index last_of(Index v) {
         while (onto_[at(v)] != v) {
             onto_[at(v)] = onto_[at(onto_[at(v)])];
@@ -144,6 +193,7 @@ ThinnedSurface thinned_surface(const Mesh& triangles, std::span<const Index> par
                                        "the thinned surface of a deformation");
     SurfaceThinning thinning(triangles, part);
     thinning.run(wanted, context);
+    thinning.flip_slivers(context);
     return thinning.result(context);
 }
 
