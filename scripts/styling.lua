@@ -376,7 +376,7 @@ styling.softness = 0.03
 -- The edge of a preset's hair: a little lower than an average one, as it thins out over a wide band; close
 -- around the ears.
 local hairline = { { 0, 34 }, { 20, 35 }, { 38, 34 }, { 52, 26 }, { 62, 11 }, { 70, -4 }, { 76, -14 },
-    { 82, -17 }, { 86, -15 }, { 90, -9 }, { 95, -6 }, { 101, -7 }, { 106, -14 }, { 110, -24 }, { 114, -33 },
+    { 82, -17 }, { 86, -13 }, { 90, -5 }, { 95, -2 }, { 101, -3 }, { 106, -10 }, { 110, -20 }, { 114, -30 },
     { 121, -40 }, { 135, -47 }, { 155, -51 }, { 180, -54 } }
 
 --- The scalp of a head for a preset: its hair thins out at a hairline that wanders as a grown one does. The

@@ -53,7 +53,8 @@ return styling.preset(..., {
         local style, up, tie = ponytail.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },
             { scalp = scalp, resolution = o.resolution, hard = true },
-            { count = math.floor(0.7 * o.count), density = styling.by_angles(scalp, upper) })
+            { count = math.floor(0.7 * o.count), density = styling.by_angles(scalp, upper),
+                seed = v.seed + 101 })
         local at = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
         up:smooth{ iterations = 3 }
         up:bun{ center = scalp:at(at), direction = scalp:normal_at(at), scalp = scalp, radius = v.bun,
