@@ -84,8 +84,8 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
 /// Assembles and factors the systems for `holds`.
 /// Errors: as Deformer::prepare; invalid_argument if either is null.
 std::shared_ptr<const Preparation> prepare_deformation(
-    std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
-    const Context& context = {});
+    const std::shared_ptr<const RestShape>& rest,
+    const std::shared_ptr<const ConstraintSet>& constraints, const Context& context = {});
 const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation);
 const std::shared_ptr<const ConstraintSet>& constraints_of(const Preparation& preparation);
 

@@ -265,16 +265,15 @@ void charge_preparation(Preparation& next, FormerSystems& systems, const Context
 }  // namespace
 
 std::shared_ptr<const Preparation> prepare_deformation(
-    std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
-    const Context& context) {
+    const std::shared_ptr<const RestShape>& rest,
+    const std::shared_ptr<const ConstraintSet>& constraints, const Context& context) {
     std::shared_ptr<const Preparation> none;
-    return prepare_next(none, std::move(rest), std::move(constraints), context);
+    return prepare_next(none, rest, constraints, context);
 }
 
-std::shared_ptr<const Preparation> prepare_next(std::shared_ptr<const Preparation>& former,
-                                                std::shared_ptr<const RestShape> rest,
-                                                std::shared_ptr<const ConstraintSet> constraints,
-                                                const Context& context) {
+std::shared_ptr<const Preparation> prepare_next(
+    std::shared_ptr<const Preparation>& former, const std::shared_ptr<const RestShape>& rest,
+    const std::shared_ptr<const ConstraintSet>& constraints, const Context& context) {
     require(rest && constraints, "a preparation needs a rest shape and holds");
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());

@@ -118,10 +118,9 @@ struct Preparation {
 /// Returns prepare_deformation of the other arguments, sooner if `former` is a preparation of the
 /// same region that nobody else holds: parts in common with the new one are taken from it. It is
 /// null afterwards, unless an error names a fault of the constraints.
-std::shared_ptr<const Preparation> prepare_next(std::shared_ptr<const Preparation>& former,
-                                                std::shared_ptr<const RestShape> rest,
-                                                std::shared_ptr<const ConstraintSet> constraints,
-                                                const Context& context);
+std::shared_ptr<const Preparation> prepare_next(
+    std::shared_ptr<const Preparation>& former, const std::shared_ptr<const RestShape>& rest,
+    const std::shared_ptr<const ConstraintSet>& constraints, const Context& context);
 
 /// Translates a solver's error from rows, which stand for the vertices `free`, to vertices: throws
 /// unconstrained.
