@@ -203,11 +203,21 @@ local rig = set:dynamics{ head = style }:save(path("rig.json")):rig()
 manifest.rig = { file = "rig.json", ties = #rig.ties, links = rig.links, capsules = #rig.capsules,
     capsule_cover = rig.capsule_cover }
 
--- Levels stand for full hair: strands of a natural width would leave holes.
+-- Levels stand for full hair: strands of a natural width would leave holes. Few short strands stand for it if
+-- they are wider still.
+local function make_levels(width)
+    local made, levels = pcall(hair.levels, hair, { style = style, of = params.of, slots = params.slots,
+        strands = strand_levels(), cards = card_levels(), shell = { triangles = params.shell },
+        width = width })
+    if made then return levels end
+    local is_thin = tostring(levels):find("covers no pixel", 1, true)
+    if not is_thin or width > 0.01 then error(levels, 0) end
+    return make_levels(2 * width)
+end
+
 local shown
-manifest.levels, shown = save_levels(hair:levels{ style = style, of = params.of, slots = params.slots,
-    strands = strand_levels(), cards = card_levels(), shell = { triangles = params.shell },
-    width = styling.width_for(0.00026, #hair) }, color, has_skin(head) and head or nil)
+manifest.levels, shown = save_levels(make_levels(styling.width_for(0.00026, #hair)), color,
+    has_skin(head) and head or nil)
 
 print("level                        triangles  screen size  silhouette, worst")
 for _, level in ipairs(manifest.levels) do

@@ -1,43 +1,45 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/cards/cap_cover.h"
 #include "kernel/hair/cards/card_slots.h"
 #include "kernel/hair/cards/hair_cards.h"
 #include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/repair/repair.h"
 #include "kernel/mesh/resample/decimate.h"
 
 namespace lissom {
 namespace {
 
-// Rounds in which a face between faces with roots joins them, so that no hole remains.
-constexpr int kCloseRounds = 2;
+// Vertices of less cover have no cap.
+constexpr double kLeastCover = 0.05;
+// Cover from which on the cap shows.
+constexpr double kHalfCover = 0.5;
 // Repeats of the slot around the head.
 constexpr double kRepeats = 6.0;
 // Weight of `cover` in decimation, so that the edge of the hair stays where it is.
 constexpr double kCoverWeight = 0.02;
 
-// Faces with roots, and those of whose vertices all touch such faces.
-std::vector<char> hairy_faces(const Strands& strands, const Mesh& head) {
+// Faces with roots or with a vertex that roots cover.
+std::vector<char> hairy_faces(const Strands& strands, const Mesh& head,
+                              const std::vector<double>& cover) {
     std::vector<char> hairy(at(head.face_count()), 0);
     for (const Index face : strands.roots().faces) {
         if (face >= 0 && face < head.face_count()) hairy[at(face)] = 1;
     }
-    for (int round = 0; round < kCloseRounds; ++round) {
-        std::vector<char> touched(at(head.vertex_count()), 0);
-        for (Index f = 0; f < head.face_count(); ++f) {
-            if (!hairy[at(f)]) continue;
-            for (const Index v : head.topology().face(f)) touched[at(v)] = 1;
-        }
-        for (Index f = 0; f < head.face_count(); ++f) {
-            const auto corners = head.topology().face(f);
-            hairy[at(f)] = hairy[at(f)] || std::all_of(corners.begin(), corners.end(),
-                                                       [&](Index v) { return touched[at(v)]; });
-        }
+    require(std::find(hairy.begin(), hairy.end(), 1) != hairy.end(),
+            "no strand is rooted on a face of this head");
+    for (Index f = 0; f < head.face_count(); ++f) {
+        const auto corners = head.topology().face(f);
+        hairy[at(f)] = hairy[at(f)] || std::any_of(corners.begin(), corners.end(), [&](Index v) {
+                           return cover[at(v)] > kLeastCover;
+                       });
     }
     return hairy;
 }
@@ -106,7 +108,8 @@ Index densest_slot(const HairCards& cards) {
 // an attribute "cover".
 Mesh hairy_skin(const Strands& strands, const Mesh& head, const CardCapOptions& options,
                 const Context& context) {
-    const std::vector<char> hairy = hairy_faces(strands, head);
+    const std::vector<double> covers = cover_of_roots(strands, head, options.unit, context);
+    const std::vector<char> hairy = hairy_faces(strands, head, covers);
     const Triangulation all = triangulate_faces(head.topology(), head.positions());
     const std::vector<Vec3> normals = triangle_normals(head, all);
     std::vector<Triangle> triangles;
@@ -114,7 +117,7 @@ Mesh hairy_skin(const Strands& strands, const Mesh& head, const CardCapOptions& 
         if (hairy[at(all.face[t])]) triangles.push_back(all.triangles[t]);
     }
     drop_pinches(triangles, head.vertex_count());
-    require(!triangles.empty(), "no strand is rooted on a face of this head");
+    require(!triangles.empty(), "the faces that strands are rooted on touch at vertices alone");
     const std::vector<Index> border = border_edges(triangles, head.vertex_count());
     std::vector<Index> number(at(head.vertex_count()), kNoIndex);
     std::vector<Vec3> positions;
@@ -126,7 +129,7 @@ Mesh hairy_skin(const Strands& strands, const Mesh& head, const CardCapOptions& 
             if (number[at(v)] != kNoIndex) continue;
             number[at(v)] = count_of(positions);
             positions.push_back(options.unit * head.position(v) + options.offset * normals[at(v)]);
-            cover.values.push_back(border[at(v)] == 0 ? 1.0 : 0.0);
+            cover.values.push_back(border[at(v)] == 0 ? covers[at(v)] : 0.0);
         }
         faces.add({number[at(t[0])], number[at(t[1])], number[at(t[2])]});
     }
@@ -159,13 +162,76 @@ CardCap cap_of(const Mesh& skin, const CardCapOptions& options, const Context& c
     return cap;
 }
 
+// Cuts the part of a triangle off whose cover is less than a half.
+class CapCutter {
+  public:
+    explicit CapCutter(const CardCap& cap) : cap_(cap), number_(cap.positions.size(), kNoIndex) {}
+
+    Mesh cut(const Context& context) {
+        for (const Triangle& t : cap_.triangles) add(t);
+        Soup soup;
+        soup.positions = std::move(positions_);
+        soup.faces = std::move(faces_);
+        // Where the edge is cut off, faces may touch at vertices alone.
+        return repair(std::move(soup), {.weld = Weld::none}, context);
+    }
+
+  private:
+    void add(const Triangle& t) {
+        std::vector<Index> face;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index a = t[c], b = t[(c + 1) % 3];
+            if (is_in(a)) face.push_back(corner(a));
+            if (is_in(a) != is_in(b)) face.push_back(crossing(std::min(a, b), std::max(a, b)));
+        }
+        for (std::size_t c = 2; c < face.size(); ++c) faces_.add({face[0], face[c - 1], face[c]});
+    }
+
+    bool is_in(Index v) const { return cap_.cover[at(v)] >= kHalfCover; }
+
+    Index put(const Vec3& p) {
+        positions_.push_back(p);
+        return count_of(positions_) - 1;
+    }
+    Index corner(Index v) {
+        if (number_[at(v)] == kNoIndex) number_[at(v)] = put(cap_.positions[at(v)]);
+        return number_[at(v)];
+    }
+    Index crossing(Index a, Index b) {
+        const auto [place, is_new] = crossings_.try_emplace({a, b}, kNoIndex);
+        if (is_new) {
+            const double here = cap_.cover[at(a)] - kHalfCover,
+                         there = cap_.cover[at(b)] - kHalfCover;
+            const Vec3 &p = cap_.positions[at(a)], &q = cap_.positions[at(b)];
+            place->second = put(p + here / (here - there) * (q - p));
+        }
+        return place->second;
+    }
+
+    const CardCap& cap_;
+    std::vector<Index> number_;
+    std::map<std::pair<Index, Index>, Index> crossings_;
+    std::vector<Vec3> positions_;
+    FaceList faces_;
+};
+
 }  // namespace
+
+CardCap make_cap(const Strands& strands, const Mesh& head, const CardCapOptions& options,
+                 const Context& context) {
+    require(strands.roots().faces.size() == at(strands.size()),
+            "the strands have no roots on the head; use strands:attach, or cap = false");
+    return cap_of(hairy_skin(strands, head, options, context), options, context);
+}
+
+Mesh cut_cap(const CardCap& cap, const Context& context) {
+    return CapCutter(cap).cut(context);
+}
 
 void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
              const CardCapOptions& options, const Context& context) {
-    require(strands.roots().faces.size() == at(strands.size()) && !cards.slots.empty(),
-            "the strands have no roots on the head; use strands:attach, or cap = false");
-    cards.cap = cap_of(hairy_skin(strands, head, options, context), options, context);
+    require(!cards.slots.empty(), "a cap needs cards, whose picture it shows");
+    cards.cap = make_cap(strands, head, options, context);
     CardSlot slot = cards.slots[at(densest_slot(cards))];
     slot.is_solid = true;
     cards.slots.push_back(slot);

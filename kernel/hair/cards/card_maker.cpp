@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,14 +19,16 @@ constexpr double kLeastHalfWidth = 0.001;
 constexpr double kMostTilt = 0.7, kMostTurn = 0.35;
 // Part of a cluster's points below its card: of a card alone, which would lie within the outline
 // of its strands in their middle, and of two that cross.
-constexpr double kLiftAlone = 0.8, kLiftCrossed = 0.55;
+constexpr double kLiftAlone = 0.88, kLiftCrossed = 0.55;
 constexpr int kSkinSteps = 20;
 // Metres that a card may begin before the mean of its roots.
 constexpr double kMostBefore = 0.015;
-// Part of its length by which a card may go on straight behind the mean of its tips.
+// Part of its length by which a card may go on behind the mean of its tips.
 constexpr double kMostBehind = 0.2;
 // Metres.
-constexpr double kAwayStep = 1e-3;
+constexpr double kAwayStep = 1e-3, kClearEnough = 1e-6;
+// Rounds in which sections move out of the head.
+constexpr int kPushPasses = 6;
 
 // The smallest number that at least `part` of the values do not exceed.
 double quantile(std::vector<double>& values, double part) {
@@ -143,8 +146,21 @@ class CardMaker {
         const double add_behind = std::clamp(quantile(behind, 0.95), 0.0, kMostBehind * length);
         std::vector<Vec3> points = centers();
         points.insert(points.begin(), points.front() - add_before * first);
-        points.push_back(points.back() + add_behind * end);
+        points.push_back(points.back() + add_behind * towards_tips(end));
         set_centers(points);
+    }
+
+    // The direction in which the card goes on, half turned to the mean of the tips behind it: hair
+    // that lies on a head goes on around it.
+    Vec3 towards_tips(const Vec3& end) const {
+        if (!ground_.options.distance) return end;
+        const Vec3& last = card_.sections.back().center;
+        Vec3 sum = Vec3::Zero();
+        for (const Index s : card_.strands) {
+            const Vec3 way = point_of(ground_.even.strand(s), kCardPoints - 1) - last;
+            if (way.dot(end) > 0.0) sum += way.dot(end) * way;
+        }
+        return sum.norm() > 0.0 ? Vec3((end + sum.normalized()).normalized()) : end;
     }
 
     // Turns the card's plane about its course to that of most spread, near the surface.
@@ -249,30 +265,58 @@ class CardMaker {
     // Moves sections out until their centre and edges, and those halfway to the next, are clear.
     void push_out() {
         if (!ground_.options.distance) return;
-        for (int pass = 0; pass < 4; ++pass) {
+        for (int pass = 0; pass < kPushPasses; ++pass) {
             bool clear = true;
             for (Index k = 0; k < ground_.sections; ++k) clear = push_section(k) && clear;
             if (clear) return;
         }
     }
 
+    // Each edge moves out by itself, so that the card lies along the skin, then all of it if its
+    // middle is still too deep.
     bool push_section(Index k) {
         CardSection& section = card_.sections[at(k)];
-        const CardSection& next = card_.sections[at(std::min(k + 1, ground_.sections - 1))];
-        double deepest = 0.0;
-        for (const double u : {-1.0, 0.0, 1.0}) {
-            for (const double part : {0.0, 0.5}) {
-                const Vec3 a = section.center + u * section.half_width * section.across;
-                const Vec3 b = next.center + u * next.half_width * next.across;
-                const double depth =
-                    ground_.options.clearance - ground_.options.distance(a + part * (b - a));
-                if (std::isfinite(depth)) deepest = std::max(deepest, depth);
-            }
+        std::array<Vec3, 2> edges;
+        bool clear = true;
+        for (const int side : {0, 1}) {
+            const double u = side == 0 ? -1.0 : 1.0;
+            edges[at(side)] = section.center + u * section.half_width * section.across;
+            const double depth = depth_at(k, u);
+            if (depth <= kClearEnough) continue;
+            edges[at(side)] += depth * away(edges[at(side)]);
+            clear = false;
         }
-        if (deepest <= 1e-6) return true;
-        section.center += deepest * away_from_head(ground_.options.distance, ground_.middle,
-                                                   section.center, kAwayStep);
-        return false;
+        const Vec3 width = edges[1] - edges[0];
+        if (!clear && width.norm() > 2.0 * kLeastHalfWidth) {
+            section.center = 0.5 * (edges[0] + edges[1]);
+            section.half_width = 0.5 * width.norm();
+            section.across = width.normalized();
+            const Vec3 out = section.out - section.out.dot(section.across) * section.across;
+            section.out =
+                out.norm() > 1e-6 ? Vec3(out.normalized()) : Vec3(section.across.unitOrthogonal());
+        }
+        const double depth = depth_at(k, 0.0);
+        if (depth > kClearEnough) section.center += depth * away(section.center);
+        return clear && depth <= kClearEnough;
+    }
+
+    Vec3 away(const Vec3& p) const {
+        return away_from_head(ground_.options.distance, ground_.middle, p, kAwayStep);
+    }
+
+    // Metres by which a section, or the middle to the next, is too deep at `u` across.
+    double depth_at(Index k, double u) const {
+        const CardSection& section = card_.sections[at(k)];
+        const CardSection& next = card_.sections[at(std::min(k + 1, ground_.sections - 1))];
+        const Vec3 a = section.center + u * section.half_width * section.across;
+        const Vec3 b = next.center + u * next.half_width * next.across;
+        double deepest = 0.0;
+        for (const double part : {0.0, 0.5}) {
+            const double depth =
+                ground_.options.clearance - ground_.options.distance(a + part * (b - a));
+            if (std::isfinite(depth)) deepest = std::max(deepest, depth);
+        }
+        return deepest;
     }
 
     const CardGround& ground_;

@@ -21,6 +21,9 @@ namespace {
 // on, and from this number of metres on.
 constexpr double kTuftPart = 0.5, kTuftThickness = 0.003;
 
+// Clusters of fewer than this part of the mean number of strands are stray.
+constexpr double kLeastMembers = 0.1;
+
 // One card in so many may be missing.
 constexpr Index kFewLeft = 20;
 
@@ -78,12 +81,14 @@ class CardPlan {
             counted += 1.0;
         }
         middle_ = middle / counted;
+        std::vector<Index> medoids = clusters.medoids;
+        drop_stray(counted, members, medoids);
         sections_ = sections_of(options_, std::min(options_.count, strands_.size()));
         std::vector<Card> cards(members.size());
         context_.parallel_for(0, count_of(members), 4, [&](Index begin, Index end) {
             for (Index c = begin; c < end; ++c) {
                 cards[at(c)] = make_card(ground(), CardPlane::alone, std::move(members[at(c)]),
-                                         clusters.medoids[at(c)]);
+                                         medoids[at(c)]);
             }
         });
         return cards;
@@ -144,6 +149,21 @@ class CardPlan {
     }
 
   private:
+    // Drops clusters of few strands: a card would show them as wide as a lock.
+    static void drop_stray(double counted, std::vector<std::vector<Index>>& members,
+                           std::vector<Index>& medoids) {
+        const double least = kLeastMembers * counted / static_cast<double>(members.size());
+        std::size_t kept = 0;
+        for (std::size_t c = 0; c < members.size(); ++c) {
+            if (static_cast<double>(members[c].size()) < least) continue;
+            medoids[kept] = medoids[c];
+            if (kept != c) members[kept] = std::move(members[c]);
+            ++kept;
+        }
+        members.resize(kept);
+        medoids.resize(kept);
+    }
+
     CardGround ground() const { return {even_, options_, sections_, middle_}; }
 
     const Strands& strands_;

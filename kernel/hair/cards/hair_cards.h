@@ -77,7 +77,8 @@ struct CardSlot {
 struct CardCap {
     std::vector<Vec3> positions, normals;
     std::vector<Triangle> triangles;
-    /// 0 at the edge of the hair, 1 inside.
+    /// Density of roots as a part of the usual: 1 inside, a half at the edge of the hair, where the
+    /// cap ends for the eye, and 0 at its border.
     std::vector<double> cover;
     /// Across and down its slot, 0 to 1.
     std::vector<Eigen::Vector2d> places;
@@ -106,7 +107,8 @@ CardPoint place_on_card(const Card& card, const Vec3& point);
 
 /// Makes cards. Strands are clustered by cluster_strands: each guide that strands follow has cards
 /// of its own if there are no more guides than clusters, and strands of a guide stay together if
-/// there are up to twice as many; groups and sides of partings have their own too. A card runs
+/// there are up to twice as many; groups and sides of partings have their own too. Clusters of less
+/// than a tenth of the mean number of strands have no card: these are stray hairs. A card runs
 /// along the smoothed mean of its strands, a little out of their middle to where they end for the
 /// eye, wide enough for `coverage` of their points at each section; its plane is that of most
 /// spread near the surface of the head, and of the second of two that cross perpendicular to that.
@@ -126,9 +128,17 @@ struct CardCapOptions {
     double error = 0.0005;
 };
 
-/// Adds a cap: the faces of `head` that strands are rooted on, and those within them, a little over
-/// the skin, decimated. Its slot is that of the most strands for its width. Errors:
-/// invalid_argument if the strands have no roots on the head; memory_limit; cancelled.
+/// Makes a cap: the faces of `head` that roots of strands cover, a little over the skin, decimated.
+/// Errors: invalid_argument if the strands have no roots on the head; memory_limit; cancelled.
+CardCap make_cap(const Strands& strands, const Mesh& head, const CardCapOptions& options = {},
+                 const Context& context = {});
+
+/// Returns the part of a cap whose cover is a half and more, as triangles. Errors: memory_limit;
+/// cancelled.
+Mesh cut_cap(const CardCap& cap, const Context& context = {});
+
+/// Adds the cap that make_cap makes. Its slot is that of the most strands for its width. Errors:
+/// as make_cap, and invalid_argument without cards.
 void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
              const CardCapOptions& options = {}, const Context& context = {});
 

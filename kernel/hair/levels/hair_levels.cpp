@@ -18,6 +18,10 @@ namespace {
 
 constexpr double kPictureLines = 1080.0;
 constexpr Index kLeastShellTriangles = 20;
+// One in so many of a shell's triangles is skin between hair.
+constexpr Index kSkinShare = 4;
+// Metres by which that skin may move when it is decimated.
+constexpr double kSkinError = 0.003;
 // Tried for a shell, after the one asked for.
 constexpr double kShellDensities[] = {0.28, 0.4, 0.5, 0.6, 0.72, 0.85};
 constexpr std::size_t kMaxLevelGroups = 1000;
@@ -134,7 +138,28 @@ class LevelMaker {
         HairLevel made;
         made.kind = HairLevelKind::shell;
         level.triangles = share_of(level.triangles, part_, kLeastShellTriangles);
+        const Mesh skin = skin_below(level);
+        // Decimation may leave more of the skin than its share.
+        level.triangles = std::max(
+            {kLeastShellTriangles, level.triangles / 2, level.triangles - skin.face_count()});
+        fit_shell(level, made);
+        if (skin.face_count() > 0) add_skin(made.mesh, skin, full_, context_);
         made.screen_size = size_of_error(level.cell);
+        return made;
+    }
+
+  private:
+    // Skin with hair that is too thin for a shell; none without a head.
+    Mesh skin_below(const ShellOptions& level) const {
+        if (!options_.head || full_.roots().faces.empty()) return {};
+        CardCapOptions cap = options_.cap;
+        cap.triangles = std::min(cap.triangles, level.triangles / kSkinShare);
+        cap.error = std::max(cap.error, kSkinError);
+        return cut_cap(make_cap(full_, *options_.head, cap, context_), context_);
+    }
+
+    // The silhouette is that of the shell without skin, which the head covers as well.
+    void fit_shell(ShellOptions level, HairLevel& made) const {
         const auto take = [&](double density) {
             level.level = density;
             Mesh mesh = make_shell(full_, level, context_);
@@ -145,7 +170,7 @@ class LevelMaker {
             return true;
         };
         take(level.level);
-        if (!options_.fit_shell) return made;
+        if (!options_.fit_shell) return;
         // The error falls and then rises with the density; thin hair has no shell of a high one.
         try {
             for (const double density : kShellDensities) {
@@ -154,10 +179,8 @@ class LevelMaker {
         } catch (const Error& error) {
             if (error.code() != ErrorCode::invalid_argument) throw;
         }
-        return made;
     }
 
-  private:
     Strands part_of(const Strands& strands, Index count, Index points) const {
         Strands part = select(strands, std::span(order_).first(at(count)));
         return points == 0 ? part : resample(part, {.count = points}, context_);

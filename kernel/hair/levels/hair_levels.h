@@ -47,7 +47,8 @@ struct HairLevelOptions {
     /// thousands leave holes at their own; 0 for their own.
     double width = 0.0;
     SilhouetteOptions silhouette = {};
-    /// The head, for caps below cards; null for none.
+    /// The head, for caps below cards, and for skin in shells where hair is too thin for one; null
+    /// for none.
     const Mesh* head = nullptr;
     CardCapOptions cap = {};
 };

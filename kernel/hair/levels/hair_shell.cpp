@@ -12,6 +12,7 @@
 #include "kernel/hair/cards/card_light.h"
 #include "kernel/hair/levels/level_surface.h"
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/smooth.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/repair/repair.h"
@@ -34,6 +35,8 @@ constexpr Index kShellGrain = 1;
 constexpr std::size_t kBytesPerShellTriangle = 300;
 // Cells over the shell at which its light is measured.
 constexpr double kLightLift = 2.0;
+// Metres over the skin between its hair.
+constexpr double kSkinLift = 0.005;
 
 void require_shell_options(const Strands& strands, const ShellOptions& options) {
     require(options.triangles >= 20 && options.triangles <= kMaxShellTriangles,
@@ -319,6 +322,29 @@ Mesh make_shell(const Strands& strands, const ShellOptions& options, const Conte
     keep_off_head(mesh, options);
     add_shell_attributes(strands, grid, matter, mesh);
     return mesh;
+}
+
+void add_skin(Mesh& shell, Mesh skin, const Strands& strands, const Context& context) {
+    Attribute normal{"normal", Domain::vertex, 3, ScalarType::float32, {}};
+    const std::vector<Vec3> normals = vertex_normals(skin);
+    for (const Vec3& n : normals) {
+        normal.values.insert(normal.values.end(), n.begin(), n.end());
+    }
+    skin.attributes().add(std::move(normal));
+    if (const StrandValues<Eigen::Vector3f>* const colors = strands.colors()) {
+        Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+        for (Index s = 0; s < strands.size(); ++s) {
+            mean += colors->at(s, strands.first_point(s)) / static_cast<float>(strands.size());
+        }
+        const HairDensity density(strands);
+        Attribute color{"color", Domain::vertex, 3, ScalarType::float32, {}};
+        for (Index v = 0; v < skin.vertex_count(); ++v) {
+            const double light = density.openness(skin.position(v) + kSkinLift * normals[at(v)]);
+            for (const float x : mean) color.values.push_back(std::clamp(light * x, 0.0, 1.0));
+        }
+        skin.attributes().add(std::move(color));
+    }
+    append(shell, skin, context);
 }
 
 }  // namespace lissom

@@ -37,4 +37,9 @@ struct ShellOptions {
 Mesh make_shell(const Strands& strands, const ShellOptions& options = {},
                 const Context& context = {});
 
+/// Adds skin that hair lies on too thinly for a shell, as along partings and in braided hair: a
+/// surface in metres, as cut_cap makes it, with the normals and, if the strands have colours, the
+/// mean of these at their roots times the light that reaches it. Errors: memory_limit; cancelled.
+void add_skin(Mesh& shell, Mesh skin, const Strands& strands, const Context& context = {});
+
 }  // namespace lissom

@@ -2,12 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 #include <vector>
 
 #include "kernel/hair/strands/strand_guides.h"
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/hair/strands/strand_support.h"
 #include "tests/unit/support.h"
@@ -145,11 +147,49 @@ TEST_CASE("hair cards: a cap of few triangles lies over the skin that hair grows
         CHECK(std::abs(to_ball(p) - options.offset) < options.error + 1e-4);
         CHECK(cards.cap.normals[v].dot(p.normalized()) > 0.9);
         lowest = std::min(lowest, p.y());
-        // Full but at the edge of the hair.
-        if (p.y() > 0.05) CHECK(cards.cap.cover[v] == doctest::Approx(1.0).epsilon(1e-9));
+        // It shows within the hair, though roots are denser at the pole of this ball.
+        if (p.y() > 0.05) CHECK(cards.cap.cover[v] > 0.7);
     }
-    CHECK(lowest > 0.01);
+    CHECK(lowest > 0.0);
     CHECK(lowest < 0.025);
+    // For the eye it ends where roots end.
+    double edge = 1.0;
+    const Mesh seen = cut_cap(cards.cap);
+    for (const Vec3& p : seen.positions()) edge = std::min(edge, p.y());
+    CHECK(edge == doctest::Approx(0.02).epsilon(0.25));
+}
+
+TEST_CASE("hair cards: the edge of a cap does not follow the faces of a coarse head") {
+    // Roots above a slanting plane, at random places of few faces.
+    const Mesh head = make_sphere({.radius = kBall, .segments = 20});
+    const Triangulation faces = triangulate_faces(head.topology(), head.positions());
+    std::vector<std::vector<Vec3>> lists;
+    StrandRoots roots;
+    const auto height = [](const Vec3& p) { return p.y() + 0.5 * p.x() - 0.02; };
+    for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+        const Triangle& corners = faces.triangles[t];
+        const Vec3 a = head.position(corners[0]), ab = head.position(corners[1]) - a,
+                   ac = head.position(corners[2]) - a;
+        const auto count = static_cast<Index>(1e5 * ab.cross(ac).norm());
+        for (Index i = 0; i < count; ++i) {
+            double u = std::fmod(0.7548776662 * (i + 1), 1.0),
+                   v = std::fmod(0.5698402910 * (i + 1), 1.0);
+            if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+            const Vec3 p = a + u * ab + v * ac;
+            if (height(p) < 0.0) continue;
+            lists.push_back({p, 1.2 * p});
+            roots.faces.push_back(faces.face[t]);
+            roots.barycentrics.emplace_back(0.4f, 0.3f, 0.3f);
+        }
+    }
+    Strands hair = strands_of(lists);
+    hair.set_roots(roots);
+    const Mesh seen = cut_cap(make_cap(hair, head));
+    REQUIRE(seen.face_count() > 0);
+    for (Index v = 0; v < seen.vertex_count(); ++v) {
+        CHECK(height(seen.position(v)) > -0.008);
+        if (seen.topology().is_boundary(v)) CHECK(std::abs(height(seen.position(v))) < 0.008);
+    }
 }
 
 // Straight strands of 20 cm that hang as tufts, round or flat.
@@ -163,6 +203,24 @@ Strands hanging_tufts(Index tufts, Index of_each, double depth) {
         lists.push_back(points);
     }
     return strands_of(lists);
+}
+
+TEST_CASE("hair cards: a stray strand has no card of its own") {
+    const Strands tufts = hanging_tufts(10, 80, 0.2);
+    std::vector<std::vector<Vec3>> lists;
+    for (Index s = 0; s < tufts.size(); ++s) {
+        std::vector<Vec3> points;
+        for (Index k = 0; k < tufts.point_count(s); ++k) {
+            points.push_back(point_of(tufts.strand(s), k));
+        }
+        lists.push_back(points);
+    }
+    lists.push_back({Vec3(0.4, 0.0, 0.5), Vec3(0.4, 0.1, 0.5), Vec3(0.4, 0.2, 0.5)});
+    const HairCards cards = make_cards(strands_of(lists), {.count = 30, .crossed = false});
+    CHECK(count_of(cards.cards) == 29);
+    for (const Card& card : cards.cards) {
+        for (const CardSection& section : card.sections) CHECK(section.center.z() < 0.1);
+    }
 }
 
 TEST_CASE("hair cards: round tufts have two cards that cross, within the count") {
