@@ -14,7 +14,7 @@
 namespace lissom {
 
 struct CardOptions {
-    /// Number of cards, 1 to kMaxCards; fewer for hair of fewer strands.
+    /// Number of cards, 1 to kMaxCards; fewer for hair of fewer strands, and where some are stray.
     Index count = 200;
     /// Triangles of all cards, from which their sections follow; 0 for `sections`. Two to 126
     /// for each card.
