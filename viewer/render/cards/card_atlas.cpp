@@ -21,6 +21,12 @@ using Eigen::Array3f;
 // Metres that the heights of an atlas reach to both sides.
 constexpr float kMostHeight = 0.005f;
 
+// Metres that alpha is wide at least, and strands on a card that are drawn to it at least.
+constexpr double kLockWidth = 0.0012;
+constexpr double kLeastLocks = 24.0;
+// Part of the full width over which a lock is pointed at its end.
+constexpr float kLockPoint = 0.2f;
+
 // What is seen of a segment of a strand.
 struct DrawnSegment {
     Array3f color = Array3f::Zero();
@@ -30,7 +36,8 @@ struct DrawnSegment {
 
 struct Texel {
     DrawnSegment mean;
-    float cover = 0.0f;
+    // Parts that strands cover, and locks.
+    float cover = 0.0f, locks = 0.0f;
 };
 
 void add_to(DrawnSegment& sum, const DrawnSegment& part, float weight) {
@@ -67,11 +74,19 @@ class SlotPainter {
     int height() const { return height_; }
 
     std::vector<Texel> paint() {
-        SampleTile tile(0, 0, width_, height_);
-        for (const Index s : card_.strands) draw_strand(s, tile);
+        SampleTile tile(0, 0, width_, height_), locks(0, 0, width_, height_);
+        std::vector<float> widths;
+        for (const Index s : card_.strands) {
+            cover_widths(drawn_, s, widths);
+            draw_strand(s, widths, tile);
+        }
+        draw_locks(locks);
         std::vector<Texel> texels(at(width_) * at(height_));
         for (int y = 0; y < height_; ++y) {
-            for (int x = 0; x < width_; ++x) texels[at(y * width_ + x)] = texel_of(tile, x, y);
+            for (int x = 0; x < width_; ++x) {
+                Texel& texel = texels[at(y * width_ + x)] = texel_of(tile, x, y);
+                texel.locks = slot_.is_solid ? 1.0f : cover_at(locks, x, y);
+            }
         }
         spread(texels);
         if (slot_.is_solid) {
@@ -90,11 +105,42 @@ class SlotPainter {
                u * card_.sections[below + 1].half_width;
     }
 
-    void draw_strand(Index s, SampleTile& tile) {
-        const StrandView strand = drawn_.strands->strand(s);
+    float widest() const {
+        float most = 0.0f;
         std::vector<float> widths;
+        for (const Index s : card_.strands) {
+            cover_widths(drawn_, s, widths);
+            most = std::max(most, *std::max_element(widths.begin(), widths.end()));
+        }
+        return most;
+    }
+
+    // Draws one of so many strands as wide as all of them, so that small pictures keep them. Where
+    // strands are thinner, fewer of these locks go on.
+    void draw_locks(SampleTile& tile) {
+        const float full = widest();
+        if (!(full > 0.0f)) return;
+        const double most = static_cast<double>(card_.strands.size()) / kLeastLocks;
+        const auto step =
+            static_cast<std::size_t>(std::max(1.0, std::min(kLockWidth / double{full}, most)));
+        std::vector<float> widths;
+        for (std::size_t i = 0; i < card_.strands.size(); i += step) {
+            const double turns = 0.6180339887498949 * (static_cast<double>(i / step) + 0.5);
+            const auto ends_below = static_cast<float>(turns - std::floor(turns));
+            cover_widths(drawn_, card_.strands[i], widths);
+            for (float& width : widths) {
+                const float part = width / full - ends_below;
+                const float shape = std::clamp(part / kLockPoint, 0.0f, 1.0f);
+                width =
+                    part > 0.0f ? static_cast<float>(step) * full * (0.4f + 0.6f * shape) : 0.0f;
+            }
+            draw_strand(card_.strands[i], widths, tile);
+        }
+    }
+
+    void draw_strand(Index s, const std::vector<float>& widths, SampleTile& tile) {
+        const StrandView strand = drawn_.strands->strand(s);
         std::vector<double> fractions;
-        cover_widths(drawn_, s, widths);
         arc_fractions(strand, fractions);
         const StrandLook look = look_of(drawn_, s);
         CardPoint before = place_on_card(card_, point_of(strand, 0));
@@ -154,6 +200,14 @@ class SlotPainter {
         return texel;
     }
 
+    static float cover_at(const SampleTile& tile, int x, int y) {
+        float count = 0.0f;
+        for (int k = 0; k < SampleTile::kSamples; ++k) {
+            if (tile.id(x, y, k) < SampleTile::kSurface) count += 1.0f;
+        }
+        return count / SampleTile::kSamples;
+    }
+
     // Gives texels without strands the mean of those around them, from the nearest on.
     void spread(std::vector<Texel>& texels) const {
         std::vector<char> known;
@@ -199,8 +253,8 @@ float alpha_factor(const std::vector<Texel>& texels, double cutoff) {
     std::vector<float> covers;
     double sum = 0.0;
     for (const Texel& texel : texels) {
-        covers.push_back(texel.cover);
-        sum += texel.cover;
+        covers.push_back(texel.locks);
+        sum += texel.locks;
     }
     std::sort(covers.begin(), covers.end(), std::greater<>());
     const auto wanted = static_cast<std::size_t>(std::lround(sum));
@@ -223,7 +277,7 @@ void put_slot(const SlotPainter& slot, const std::vector<Texel>& texels, double 
             for (int i = 0; i < 3; ++i) {
                 color[i] = byte_of(linear_to_srgb(std::clamp(texel.mean.color[i], 0.0f, 1.0f)));
             }
-            color[3] = byte_of(factor * texel.cover);
+            color[3] = byte_of(factor * texel.locks);
             std::uint8_t* const flow = atlas.flow.pixel(slot.left() + x, slot.top() + y);
             flow[0] = byte_of(0.5 + 0.5 * texel.mean.flow.x());
             flow[1] = byte_of(0.5 + 0.5 * texel.mean.flow.y());

@@ -15,13 +15,14 @@ struct CardAtlasOptions {
     /// Colours of the strands, without light; its lobes and shadows are not used.
     StrandStyle style = {};
     /// Alpha is made steeper about this number and shifted, so that as large a part of each slot is
-    /// above it as strands cover, at the full size of the picture.
+    /// above it as its locks cover, at the full size of the picture.
     double cutoff = 0.5;
 };
 
 /// Pictures of one size. Beside strands colours go on, so that smaller pictures do not darken.
 struct CardAtlas {
-    /// Colour, and alpha: the part of the texel that strands cover, made steeper.
+    /// Colour, and alpha: the part of the texel that locks cover, made steeper. Locks are every
+    /// n-th strand as wide as n, about 1.2 mm, so that mipmaps keep as large a part of them.
     Image color;
     /// Direction of the strands on the card, towards the tip, as in a normal map: red across, green
     /// along the card from the tip to the root, each from -1 to 1; blue: height over the card's
