@@ -302,7 +302,7 @@ double solve_with_pins(Deformer& deformer, std::span<const SlidingPin> pins, con
     auto& state = DeformerAccess::state(deformer);
     const Context& context = state.chosen(given);
     return with_memory_errors([&] {
-        require_whole_surface(state.options(), "sliding pins");
+        require_whole_surface(state.options(), "a sliding pin");
         const auto prepared = state.prepare(context);
         DeformFrame frame =
             solve_frame(prepared, state.poses, state.scratch, FrameQuality::full, context);
