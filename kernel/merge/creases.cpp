@@ -15,6 +15,9 @@ constexpr double kCleanTurn = 3.0 * kDegree;
 // Sewing divides polygons and flips edges: it makes neighbours of the seam of vertices that are
 // this many rings of faces away, and smoothing moves those.
 constexpr int kNearRings = 2;
+// Faces that turn by less are those of one flat face of a shape: files of CAD models have six
+// digits.
+constexpr double kFlatTurn = 0.05 * kDegree;
 
 // The sums of the area vectors of the faces around both ends of the edge from a to b on its left
 // and on its right, seen along it.
@@ -69,7 +72,26 @@ bool ends_crease(const Mesh& mesh, Index v) {
     });
 }
 
+bool lies_flat(const Mesh& mesh, Index v) {
+    Vec3 first = Vec3::Zero();
+    for (const Index f : mesh.topology().faces_around(v)) {
+        const Vec3 normal = clear_area_vector(mesh, f);
+        if (!(normal.squaredNorm() > 0.0)) continue;
+        if (first.squaredNorm() > 0.0 && angle_between(first, normal) > kFlatTurn) return false;
+        if (!(first.squaredNorm() > 0.0)) first = normal;
+    }
+    return first.squaredNorm() > 0.0;
+}
+
 }  // namespace
+
+std::vector<Index> flat_vertices(const Mesh& mesh) {
+    std::vector<Index> result;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (lies_flat(mesh, v)) result.push_back(v);
+    }
+    return result;
+}
 
 std::vector<Index> creased_vertices(const Mesh& mesh, std::span<const Index> asked) {
     std::vector<Index> result;

@@ -16,6 +16,10 @@ namespace lissom {
 /// less than 10 degrees.
 std::vector<Index> creased_vertices(const Mesh& mesh, std::span<const Index> asked);
 
+/// Returns the vertices in flat faces of a mesh, ascending: the faces around each turn by less than
+/// a twentieth of a degree from each other. The path of an open boundary does not matter.
+std::vector<Index> flat_vertices(const Mesh& mesh);
+
 /// Returns the vertices of `loops` and of two rings of faces around them, ascending.
 std::vector<Index> vertices_near(const Mesh& mesh, std::span<const std::vector<Index>> loops);
 

@@ -100,8 +100,8 @@ struct MergeOptions {
     /// is none. The thesis's transition needs both, and regions that are bands: its widths are
     /// lengths along edges.
     double source_transition = 0.0, target_transition = 0.0;
-    /// Chooses the widths by the seams (suitable_widths) in place of given ones; not for the
-    /// thesis's transition.
+    /// Chooses the widths by the seams (suitable_widths) in place of given ones; flat faces of the
+    /// targets stay flat then. Not for the thesis's transition.
     bool auto_transition = false;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;

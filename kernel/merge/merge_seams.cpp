@@ -1,6 +1,7 @@
 // Last steps of a merge: the seams, and self-intersections.
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -74,13 +75,18 @@ double max_angles(const SewReport& report) {
     return report.after.max_dihedral + report.after.max_near;
 }
 
+bool has_given_widths(const MergeOptions& options) {
+    return !options.auto_transition &&
+           (options.source_transition > 0.0 || options.target_transition > 0.0);
+}
+
 bool makes_transition(const MergeOptions& options) {
-    return options.auto_transition || options.source_transition > 0.0 ||
-           options.target_transition > 0.0;
+    return options.auto_transition || has_given_widths(options);
 }
 
 // The vertices that a crease of a side at rest ends at, in the numbers of both sides: those near
-// the loops, which umbrella steps keep, and if bands move, those on all of the sides.
+// the loops, which umbrella steps keep, and if bands move, those on all of the sides and in flat
+// faces of the target.
 struct KeptCreases {
     std::vector<Index> near, all;
 };
@@ -98,11 +104,21 @@ std::vector<Index> creases_of(const Boundaries& boundaries, bool all) {
     return creased;
 }
 
+// Adds the vertices of flat faces of the target to ascending ones.
+void add_flat_faces(const Mesh& target, std::vector<Index>& firm) {
+    std::vector<Index> all;
+    const std::vector<Index> flat = flat_vertices(target);
+    std::set_union(firm.begin(), firm.end(), flat.begin(), flat.end(), std::back_inserter(all));
+    firm = std::move(all);
+}
+
 KeptCreases kept_creases(const Boundaries& boundaries, const MergeOptions& options) {
     if (options.thesis) return {};
     KeptCreases kept{creases_of(boundaries, false), {}};
     const bool bands = options.seam == SeamKind::fair || makes_transition(options);
     if (bands) kept.all = creases_of(boundaries, true);
+    // Widths that were asked for may bend flat faces; what is chosen leaves them flat.
+    if (bands && !has_given_widths(options)) add_flat_faces(boundaries.target, kept.all);
     return kept;
 }
 

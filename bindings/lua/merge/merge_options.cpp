@@ -125,9 +125,8 @@ std::vector<OptionRow> option_rows(bool slow) {
          [](const Call& call, MergeOptions& to) { to.turn_frames = call.integer("frames") == 0; }},
         {choice("seam", {"conform", "fair", "band"},
                 "conform: vertices of both boundaries are inserted into the faces of the other "
-                "side. fair: then the surface around the seam is bent smooth, unless a transition "
-                "does "
-                "that. band: a band of the "
+                "side. fair: then the surface around the seam is bent smooth, but for flat faces "
+                "and creases of the target, unless a transition does that. band: a band of the "
                 "target's faces is replaced, as in the thesis.")
              .optional("\"conform\"")
              .thesis("3.3.1", "\"band\""),
@@ -163,8 +162,8 @@ std::vector<OptionRow> option_rows(bool slow) {
                       .defaults(0.1)},
                  "Bands on either side of the seam in which details of both fade into each other; "
                  "`true` chooses widths that suit each seam: .9 of its radius, at least three "
-                 "edges, at most half of the side. If the surface has no room for a width, the "
-                 "band is narrower and a warning says so.")
+                 "edges, at most half of the side; flat faces of the target stay flat then. If the "
+                 "surface has no room for a width, the band is narrower and a warning says so.")
              .or_true()
              .optional("none"),
          Bridge::refused, [](const Call& call, MergeOptions& to) { read_transition(call, to); }},

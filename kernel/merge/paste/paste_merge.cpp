@@ -1,6 +1,8 @@
 // The last steps of a paste: the part is deformed, the target opened, and both are sewn.
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,6 +45,18 @@ constexpr double kFoldedSeam = 90.0 * kDegree;
 // Creases of the target end there, which smoothing the seam would bend.
 std::vector<Index> kept_creases(const OpenedTarget& opened) {
     return creased_vertices(opened.mesh, vertices_near(opened.mesh, {&opened.loop, 1}));
+}
+
+// Creases and flat faces of the target, which a band that is bent leaves as they are.
+std::vector<Index> shaped_vertices(const OpenedTarget& opened) {
+    std::vector<Index> vertices(at(opened.mesh.vertex_count()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const std::vector<Index> creased = creased_vertices(opened.mesh, vertices);
+    const std::vector<Index> flat = flat_vertices(opened.mesh);
+    vertices.clear();
+    std::set_union(creased.begin(), creased.end(), flat.begin(), flat.end(),
+                   std::back_inserter(vertices));
+    return vertices;
 }
 
 Sewn sewn_with(const LaidPart& laid, const PasteMergeOptions& options, bool finished, bool collar,
@@ -426,7 +440,7 @@ class PasteJudge {
 
     SewnPart bent(Way way, SewnPart part, const Context& context) const {
         Sewn& sewn = part.sewn;
-        const std::vector<Index> firm = became_of(sewn, kept_creases(part.laid.opened));
+        const std::vector<Index> firm = became_of(sewn, shaped_vertices(part.laid.opened));
         if (way == Way::fair) {
             SeamFairing how;
             how.firm = firm;
