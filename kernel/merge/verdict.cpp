@@ -35,6 +35,11 @@ constexpr double kRoughRougher = 1.4, kRoughSource = 14.0 / kRadian;
 // Targets change at the seam only: the roughest that looks right is 1.2 times as rough as it was,
 // torn ones 1.46 times and more, a smooth one from 1.5 degrees to 7.
 constexpr double kTargetRougher = 1.3, kFlatTarget = 5.0 / kRadian;
+// A source whose grain became this many times as coarse, and whose edges turn like wrinkles along
+// this many radii more than before, is crumpled, however many creases it has: of 40 merges and
+// pastes of real models six that look so are 1.35 times as coarse and more and gained 4 radii and
+// more, good ones as coarse gained .2 at most.
+constexpr double kCoarserGrain = 1.3, kWrinkled = 2.0;
 // Folds shorter than this, in radii of the seam, do not show: of merges and pastes of real models
 // those of up to .13 look right, of .27 and more they do not.
 constexpr double kFold = 0.15;
@@ -303,6 +308,22 @@ double source_limit(double before, bool pasted) {
     return pasted ? limit : std::min(limit, std::max(kRoughRougher * before, kRoughSource));
 }
 
+double target_limit(double before) {
+    return std::max(kTargetRougher * before, kFlatTarget);
+}
+
+constexpr const char* kBetweenCreases = "target between its creases beside";
+
+// A source with creases, beside which its roughness tells little.
+void judge_wrinkles(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {
+    const BandQuality& band = report.joins[at(j)].band;
+    const Roughness found{"source between its creases beside", band.source_grain,
+                          band.rest_source_grain,
+                          std::max(kCoarserGrain * band.rest_source_grain, kFlatSource)};
+    if (report.joins[at(j)].fits || !(band.wrinkled > kWrinkled)) return;
+    if (found.now > found.limit) tell_roughness(report, j, found, open, reasons);
+}
+
 // Both sides together, else one that was smoother than the other.
 void judge_roughness(const MergeReport& report, Index j, const OpenOptions& open,
                      Reasons& reasons) {
@@ -312,10 +333,13 @@ void judge_roughness(const MergeReport& report, Index j, const OpenOptions& open
                              {"source beside", band.source_roughness, band.rest_source_roughness,
                               source_limit(band.rest_source_roughness, is_paste(report))},
                              {"target beside", band.target_roughness, band.rest_target_roughness,
-                              std::max(kTargetRougher * band.rest_target_roughness, kFlatTarget)}};
+                              target_limit(band.rest_target_roughness)},
+                             {kBetweenCreases, band.target_grain, band.rest_target_grain,
+                              target_limit(band.rest_target_grain)}};
     for (const Roughness& found : all) {
         if (found.now > found.limit) return tell_roughness(report, j, found, open, reasons);
     }
+    judge_wrinkles(report, j, open, reasons);
 }
 
 void judge_volume(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {

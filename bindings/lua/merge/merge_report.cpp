@@ -74,13 +74,18 @@ void push_join_place(const Call& call, const JoinReport& join) {
 }
 
 void push_band_quality(const Call& call, const BandQuality& band) {
-    lua_createtable(call.lua(), 0, 20);
+    lua_createtable(call.lua(), 0, 27);
     call.set_field("roughness", call.push(kDegrees * band.roughness));
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
     call.set_field("source_roughness", call.push(kDegrees * band.source_roughness));
     call.set_field("rest_source_roughness", call.push(kDegrees * band.rest_source_roughness));
     call.set_field("target_roughness", call.push(kDegrees * band.target_roughness));
     call.set_field("rest_target_roughness", call.push(kDegrees * band.rest_target_roughness));
+    call.set_field("source_grain", call.push(kDegrees * band.source_grain));
+    call.set_field("rest_source_grain", call.push(kDegrees * band.rest_source_grain));
+    call.set_field("target_grain", call.push(kDegrees * band.target_grain));
+    call.set_field("rest_target_grain", call.push(kDegrees * band.rest_target_grain));
+    call.set_field("wrinkled", call.push(band.wrinkled));
     call.set_field("steep", call.push(kDegrees * band.steep));
     call.set_field("rest_steep", call.push(kDegrees * band.rest_steep));
     call.set_field("bend", call.push(kDegrees * band.bend));
@@ -531,6 +536,14 @@ std::vector<Record> merge_records() {
           {"number", "rest_source_roughness", "The same of the source before."},
           {"number", "target_roughness", "The same of the target alone."},
           {"number", "rest_target_roughness", "The same of the target before."},
+          {"number", "source_grain",
+           "`source_roughness` of the edges that turn by less than 40 degrees: between creases."},
+          {"number", "rest_source_grain", "The same of the source before."},
+          {"number", "target_grain", "The same of the target alone."},
+          {"number", "rest_target_grain", "The same of the target before."},
+          {"number", "wrinkled",
+           "Length of the source's edges within half a radius that turn by more than 25 degrees, "
+           "in radii of the seam, beyond that before."},
           {"number", "steep", "Angle of the seam's edges that a thirtieth of its length exceeds."},
           {"number", "rest_steep",
            "The same of the edges of the faces at the boundaries before, of the steeper side."},

@@ -26,6 +26,9 @@ constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
 constexpr double kBandFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
 // Angle of an edge that shows by itself, as a slit, a ridge or a tooth.
 constexpr double kSharpEdge = 60.0 * kDegree;
+// Edges that turn by less are no creases of a shape but the grain of its surface; those of wrinkles
+// turn by more than the second.
+constexpr double kGrain = 40.0 * kDegree, kWrinkle = 25.0 * kDegree;
 // Points of a seam at which planes are fitted, at most.
 constexpr std::size_t kBandPlanes = 48;
 // A side is flat that has less volume than this many cubes of the radius: a dome as steep as a
@@ -35,6 +38,8 @@ constexpr double kBandFlat = 0.7;
 // Adds up edges by their lengths.
 struct EdgeSum {
     double length = 0.0, squares = 0.0, sharp = 0.0, folded = 0.0, nearly_folded = 0.0;
+    // Of the edges of the grain; and the length of those that turn like wrinkles or more.
+    double grain_length = 0.0, grain_squares = 0.0, wrinkled = 0.0;
 
     void add(const Mesh& mesh, Index a, Index b) {
         const Index left = face_left_of(mesh.topology(), a, b);
@@ -46,11 +51,19 @@ struct EdgeSum {
         const double edge = (mesh.position(b) - mesh.position(a)).norm();
         length += edge;
         squares += edge * angle * angle;
+        if (angle < kGrain) {
+            grain_length += edge;
+            grain_squares += edge * angle * angle;
+        }
+        if (angle > kWrinkle) wrinkled += edge;
         if (angle > kSharpEdge) sharp += edge;
         if (angle > kBandFolded) folded += edge;
         if (angle > kNearlyFolded) nearly_folded += edge;
     }
     double rms() const { return length > 0.0 ? std::sqrt(squares / length) : 0.0; }
+    double grain() const {
+        return grain_length > 0.0 ? std::sqrt(grain_squares / grain_length) : 0.0;
+    }
 };
 
 EdgeSum edges_of(const Mesh& mesh, std::span<const Index> faces,
@@ -283,6 +296,17 @@ void note_roughness(const EdgeSums& made, const EdgeSums& rest, double scale, Ba
     band.rest_source_roughness = rest.source.rms();
     band.target_roughness = made.target.rms();
     band.rest_target_roughness = rest.target.rms();
+    band.source_grain = made.source.grain();
+    band.rest_source_grain = rest.source.grain();
+    band.target_grain = made.target.grain();
+    band.rest_target_grain = rest.target.grain();
+}
+
+// What the edges of a side gained in such length, in radii.
+double gained(const Side& made, const Side& rest, double EdgeSum::*length) {
+    if (!(made.radius() > 0.0 && rest.radius() > 0.0)) return 0.0;
+    const double now = made.edges(kBand).*length / made.radius();
+    return std::max(0.0, now - rest.edges(kBand).*length / rest.radius());
 }
 
 // Part of the volume that was kept, for surfaces that are inside out as well.
@@ -338,14 +362,9 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.folded = folds(on_target, &EdgeSum::folded) + folds(on_source, &EdgeSum::folded);
     result.rest_folded =
         folds(old_target, &EdgeSum::nearly_folded) + folds(old_source, &EdgeSum::nearly_folded);
-    const auto sharpened = [](const Side& made, const Side& rest) {
-        const bool clear = made.radius() > 0.0 && rest.radius() > 0.0;
-        return clear ? made.edges(kBand).sharp / made.radius() -
-                           rest.edges(kBand).sharp / rest.radius()
-                     : 0.0;
-    };
-    result.sharpened =
-        std::max({0.0, sharpened(on_target, old_target), sharpened(on_source, old_source)});
+    result.sharpened = std::max(gained(on_target, old_target, &EdgeSum::sharp),
+                                gained(on_source, old_source, &EdgeSum::sharp));
+    result.wrinkled = gained(on_source, old_source, &EdgeSum::wrinkled);
     result.spike = on_target.spike();
     result.rest_spike = std::max(old_target.spike(), old_source.spike());
     if (!made_source.rest.empty()) result.pinched = on_source.pinched(made_source.rest);

@@ -21,6 +21,13 @@ struct BandQuality {
     /// The same of each side by itself: a smooth part that crumples beside a rough one shows.
     double source_roughness = 0.0, rest_source_roughness = 0.0;
     double target_roughness = 0.0, rest_target_roughness = 0.0;
+    /// The same of the edges that turn by less than 40 degrees: the grain of a surface between its
+    /// creases, beside which roughness tells little.
+    double source_grain = 0.0, rest_source_grain = 0.0;
+    double target_grain = 0.0, rest_target_grain = 0.0;
+    /// Length of the source's edges within half a radius that turn by more than 25 degrees, in
+    /// radii of the seam, beyond that before; at least 0.
+    double wrinkled = 0.0;
     /// Dihedral angle of the seam's edges that a thirtieth of its length exceeds; and the same of
     /// the edges of the faces at the boundaries before, of the side that is steeper.
     double steep = 0.0, rest_steep = 0.0;

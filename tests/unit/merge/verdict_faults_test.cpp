@@ -209,3 +209,24 @@ TEST_CASE("wrinkles of a rough source are found, its own roughness is not") {
     CHECK(found.value > 14.0 * kDegree);
     CHECK(found.value < 16.0 * kDegree);
 }
+
+TEST_CASE("wrinkles between the creases of a source are found, creases that stay are not") {
+    const Column column;
+    const auto flute = [](Vec3& p) {
+        scale_out(p, 1.0 + 0.25 * std::abs(std::sin(4.0 * std::atan2(p.x(), p.z()))));
+    };
+    const Mesh fluted = column.moved(flute);
+    CHECK(column.judged(fluted, fluted).good);
+    const auto wrinkle = [&](double height) {
+        return column.moved([&](Vec3& p) {
+            const double wave = std::cos(24.0 * std::atan2(p.x(), p.z()) + 30.0 * p.y());
+            if (p.y() > 0.05 && p.y() < 0.5) scale_out(p, 1.0 + height * wave);
+            flute(p);
+        });
+    };
+    CHECK(column.judged(wrinkle(0.002), fluted).good);
+    const MergeReason found =
+        reason_of(column.judged(wrinkle(0.013), fluted), MergeFault::roughness);
+    CHECK_MESSAGE(found.text.find("the source between its creases") != std::string::npos,
+                  found.text);
+}

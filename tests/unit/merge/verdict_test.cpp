@@ -113,6 +113,15 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(reason.limit == doctest::Approx(5.0 * kDegree));
     band.rest_target_roughness = 6.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
+    // Beside creases the rest of a side may still be rough.
+    band = good_band();
+    band.target_roughness = band.rest_target_roughness = 13.0 * kDegree;
+    band.target_grain = 9.0 * kDegree;
+    reason = only_reason(report_with(band));
+    CHECK(reason.text.find("the target between its creases") != std::string::npos);
+    CHECK(reason.limit == doctest::Approx(5.0 * kDegree));
+    band.rest_target_grain = 8.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
     // Beside flat sides edges that turn by little do not show.
     band = good_band();
     band.rest_roughness = 0.1 * kDegree;
@@ -155,6 +164,27 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(verdict_of(report_with(band), {}).good);
     band.max_bend = 70.0 * kDegree;
     CHECK(only_reason(report_with(band)).limit == doctest::Approx(60.0 * kDegree));
+}
+
+TEST_CASE(
+    "a source with creases that gains wrinkles between them is not good, nor with few of them") {
+    BandQuality band = good_band();
+    band.source_roughness = band.rest_source_roughness = 20.0 * kDegree;
+    band.source_grain = 12.0 * kDegree;
+    band.rest_source_grain = 8.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.wrinkled = 4.0;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::roughness);
+    CHECK(reason.limit == doctest::Approx(11.0 * kDegree));
+    CHECK(reason.text.find("the source between its creases") != std::string::npos);
+    // Its own grain is no wrinkle, and parts that fit keep theirs.
+    band.rest_source_grain = 10.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.rest_source_grain = 8.0 * kDegree;
+    MergeReport fits = report_with(band);
+    fits.joins.front().fits = true;
+    CHECK(verdict_of(fits, {}).good);
 }
 
 TEST_CASE(
