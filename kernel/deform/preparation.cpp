@@ -217,8 +217,12 @@ bool may_have_levels(const RestShape& rest, const ConstraintSet& constraints,
     return false;
 }
 
-// Returns false, and changes nothing, if the thinned surface cannot be prepared.
+// Returns false if the thinned surface cannot be prepared; `next` is of no use then.
 bool prepare_on_levels(Preparation& next, const Context& context) {
+    // Shares of the thinned surface, twice while they are made, and a frame.
+    constexpr std::size_t kBytesPerVertex = 200;
+    next.hold = MemoryHold(context.memory(), "preparing a deformation on levels");
+    next.hold.resize(next.rest->positions.size() * kBytesPerVertex);
     const auto start = Clock::now();
     std::optional<LevelMethod> levels = prepare_levels(next, context);
     if (!levels) return false;

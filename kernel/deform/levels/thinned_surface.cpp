@@ -149,16 +149,13 @@ class SurfaceThinning {
         const Vec3 a = editor_.position(edge.a), b = editor_.position(edge.b);
         const Vec3 c = editor_.position(editor_.opposite(edge.left, edge));
         const Vec3 d = editor_.position(editor_.opposite(edge.right, edge));
-        if (part_[at(edge.a)] == part_[at(edge.b)] &&
-            angle_at(c, a, b) + angle_at(d, a, b) > kPi + kFlipMargin) {
-            const Vec3 before =
-                (b - a).cross(c - a).normalized() + (d - a).cross(b - a).normalized();
-            const Vec3 first = (d - c).cross(b - c), second = (c - d).cross(a - d);
-            const double least = kFlatCosine * before.norm();
-            return first.dot(before) > least * first.norm() &&
-                   second.dot(before) > least * second.norm();
-        }
-        return false;
+        if (part_[at(edge.a)] != part_[at(edge.b)]) return false;
+        if (angle_at(c, a, b) + angle_at(d, a, b) <= kPi + kFlipMargin) return false;
+        const Vec3 before = (b - a).cross(c - a).normalized() + (d - a).cross(b - a).normalized();
+        const Vec3 first = (d - c).cross(b - c), second = (c - d).cross(a - d);
+        const double least = kFlatCosine * before.norm();
+        return first.dot(before) > least * first.norm() &&
+               second.dot(before) > least * second.norm();
     }
 
     static double angle_at(const Vec3& corner, const Vec3& p, const Vec3& q) {

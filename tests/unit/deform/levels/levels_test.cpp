@@ -282,3 +282,20 @@ TEST_CASE("levels: a cancel ends the preparation, which can be made again") {
           ErrorCode::cancelled);
     CHECK(edit.deformer.solve().size() == at(scene.mesh.vertex_count()));
 }
+
+TEST_CASE("levels: their memory is charged for as long as the deformer lives") {
+    const Scene scene = dense_bar(32);
+    ContextOptions services;
+    services.memory_limit = 1 << 30;
+    const Context context(services);
+    const std::size_t before = context.memory()->used();
+    {
+        Deformer deformer(scene.mesh, on_levels(300), context);
+        deformer.add_handle(scene.region(scene.low));
+        const std::size_t rest = context.memory()->used();
+        deformer.prepare(context);
+        REQUIRE(stats_of(deformer).level_vertices > 0);
+        CHECK(context.memory()->used() - rest > 200 * at(scene.mesh.vertex_count()));
+    }
+    CHECK(context.memory()->used() == before);
+}
