@@ -99,6 +99,7 @@ test("selecting, cutting, smoothing and moving, one after the other", function()
         h:key("+", "+")
         h:use("smooth")
         h:drag{ { -0.4, 2, 0.5 }, { 0.4, 2, 0.5 } }
+        h:drag({ { -0.4, 1.5, 0.5 }, { 0.4, 1.5, 0.5 } }, { pressure = 0.3 })       -- by a pen
         h:use("cut")
         h.host:set{ by = "region" }
         h:key("enter")

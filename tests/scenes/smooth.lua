@@ -45,6 +45,24 @@ test("strength, steps and size of the brush", function()
     expect.equal(#h.host:draw().circles, 1)
 end)
 
+test("a pen smooths as hard, or as widely, as it presses", function()
+    local function pressed(parameter, pressure)
+        h.host:set{ pressure = parameter, radius = 100 }
+        h:click({ 0, 0, 0 }, { pressure = pressure })
+        local middle, rim = height(mesh, 0, 0, 0.15), height(mesh, 0.6, 0, 0.15)
+        h.host:undo()
+        return middle, rim
+    end
+    local full, full_rim = pressed("none", 0.2)
+    expect.near(full, (pressed("strength", 1)))
+    expect.truthy(pressed("strength", 0.2) > 2 * full)
+    local narrow, narrow_rim = pressed("radius", 0.2)
+    expect.near(narrow, full, 0.01)
+    expect.truthy(full_rim < 0.05)
+    expect.near(narrow_rim, 0.1)
+    expect.error(function() h:click({ 0, 0, 0 }, { pressure = 2 }) end, "pressure")
+end)
+
 test("only what is selected, where anything is", function()
     mesh:set_region("selected", mesh:region{ box = { max = { 0, nil, nil } } })
     h:drag({ { -1, 0, 0 }, { 1, 0, 0 } }, nil, 8)

@@ -15,6 +15,8 @@ export function letterOf(event) {
     return /^Key[A-Z]$/.test(event.code) ? event.code[3].toLowerCase() : '';
 }
 
+// Mice and most fingers tell none, or a constant. A pen that is lifted, or tells none, presses by 0.
+const pressureOf = ({ pointerType, pressure }) => pointerType === 'pen' && pressure > 0 ? { pressure: Math.min(pressure, 1) } : {};
 const modifiersOf = event => ({ shift: event.shiftKey, ctrl: event.ctrlKey || event.metaKey, alt: event.altKey });
 
 export class Hand {
@@ -131,7 +133,8 @@ export class Hand {
 
     place(event) {
         const box = this.view.canvas.getBoundingClientRect(), { shift, ctrl, alt } = modifiersOf(event);
-        return { x: event.clientX - box.left, y: event.clientY - box.top, shift: shift || this.sticky.shift, ctrl: ctrl || this.sticky.ctrl, alt };
+        return { x: event.clientX - box.left, y: event.clientY - box.top, ...pressureOf(event),
+            shift: shift || this.sticky.shift, ctrl: ctrl || this.sticky.ctrl, alt };
     }
 
     down(event) {

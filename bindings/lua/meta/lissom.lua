@@ -863,6 +863,7 @@
 ---@field x number From the left edge of the picture.
 ---@field y number From the top of the picture.
 ---@field button string? The button, left if it is left out; of a press.
+---@field pressure number? Of a pen, 0 to 1; 1 if it is left out, as a mouse has none.
 ---@field late boolean? Whether a later place of the same drag is known already; of a move.
 ---@field shift boolean? Whether this key is down.
 ---@field ctrl boolean? Likewise.
@@ -894,6 +895,7 @@
 ---@field y number? Pixels from its top.
 ---@field start number[]? Pixel at which the button went down, {x, y}.
 ---@field button string? left, right or middle.
+---@field pressure number Of a pen, 0 to 1; 1 of a mouse.
 ---@field key string? The key, of key.
 ---@field lines number? Turn of the wheel, of wheel: upwards is above 0.
 ---@field seconds number? Time since the last tick, of tick.

@@ -41,7 +41,7 @@ local function name_members(class, what, fields, own)
 end
 
 name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "up", "x", "y",
-    "start", "button", "shift", "ctrl", "alt", "late", "key", "lines", "seconds", "parameter" })
+    "start", "button", "pressure", "shift", "ctrl", "alt", "late", "key", "lines", "seconds", "parameter" })
 name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
     "begun", "brings_up", "depth", "drawn", "draws", "exported", "guarded", "held", "hover", "is_made",
     "journal", "kept", "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread",
@@ -159,7 +159,7 @@ function Host:event(kind, fields)
     local held = self.held or {}
     local event = { kind = kind, camera = self.camera, scene = self.scene, size = self.size,
         up = self:up_axis(), x = self.x, y = self.y, start = held.start, button = held.button,
-        shift = false, ctrl = false, alt = false }
+        pressure = 1, shift = false, ctrl = false, alt = false }
     for key, value in pairs(fields or {}) do event[key] = value end
     callers[event] = self
     return setmetatable(event, Event)
@@ -467,6 +467,7 @@ end
 
 local function mouse_note(kind, event)
     return { kind, event.x, event.y, button = event.button ~= "left" and event.button or nil,
+        pressure = event.pressure ~= 1 and event.pressure or nil,
         shift = event.shift or nil, ctrl = event.ctrl or nil, alt = event.alt or nil }
 end
 

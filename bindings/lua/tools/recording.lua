@@ -311,7 +311,7 @@ local player = {
 for _, kind in ipairs{ "press", "move", "release" } do
     player[kind] = function(host, event)
         host[kind](host, { x = event[2], y = event[3], button = kind == "press" and event.button or nil,
-            shift = event.shift, ctrl = event.ctrl, alt = event.alt })
+            pressure = event.pressure, shift = event.shift, ctrl = event.ctrl, alt = event.alt })
     end
 end
 

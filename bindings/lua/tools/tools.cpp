@@ -409,6 +409,10 @@ std::vector<Parameter> mouse_fields() {
     fields.push_back(choice("button", {"left", "right", "middle"},
                             "The button, left if it is left out; of a press.")
                          .optional("left"));
+    fields.push_back(number("pressure",
+                            "Of a pen, 0 to 1; 1 if it is left out, as a mouse has none.")
+                         .between(0, 1)
+                         .optional("1"));
     fields.push_back(
         boolean("late", "Whether a later place of the same drag is known already; of a move.")
             .optional());
@@ -592,6 +596,7 @@ std::vector<Record> tool_records() {
           {"number?", "y", "Pixels from its top."},
           {"number[]?", "start", "Pixel at which the button went down, {x, y}."},
           {"string?", "button", "left, right or middle."},
+          {"number", "pressure", "Of a pen, 0 to 1; 1 of a mouse."},
           {"string?", "key", "The key, of key."},
           {"number?", "lines", "Turn of the wheel, of wheel: upwards is above 0."},
           {"number?", "seconds", "Time since the last tick, of tick."},
