@@ -21,6 +21,9 @@
 #define LISSOM_LANES_TARGET "avx2"
 #else
 #define LISSOM_LANES lanes_anywhere
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
 #endif
 
 // All functions between are compiled for one processor: were they only inlined into a function for
@@ -163,6 +166,8 @@ LISSOM_INLINE bool any(const Ints& yes) {
 #elif defined(LISSOM_LANES_AVX2)
     const auto bits = reinterpret_cast<__m256i>(yes);
     return _mm256_testz_si256(bits, bits) == 0;
+#elif defined(__wasm_simd128__)
+    return wasm_v128_any_true(reinterpret_cast<v128_t>(yes));
 #else
     std::uint64_t pairs[kLanes / 2];
     std::memcpy(pairs, &yes, sizeof(pairs));
@@ -177,6 +182,8 @@ LISSOM_INLINE unsigned bits_of(const Ints& yes) {
     return _mm512_test_epi32_mask(numbers, numbers);
 #elif defined(LISSOM_LANES_AVX2)
     return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(no(no(yes)))));
+#elif defined(__wasm_simd128__)
+    return static_cast<unsigned>(wasm_i32x4_bitmask(reinterpret_cast<v128_t>(no(no(yes)))));
 #else
     unsigned bits = 0;
     for (int k = 0; k < kLanes; ++k) {
@@ -189,6 +196,8 @@ LISSOM_INLINE unsigned bits_of(const Ints& yes) {
 LISSOM_INLINE Floats root(const Floats& x) {
 #if defined(LISSOM_LANES_AVX512)
     return _mm512_maskz_sqrt_ps(0xffff, x);
+#elif defined(__wasm_simd128__)
+    return reinterpret_cast<Floats>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(x)));
 #else
     Floats result;
     for (int k = 0; k < kLanes; ++k) result[k] = std::sqrt(x[k]);
