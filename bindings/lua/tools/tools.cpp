@@ -409,10 +409,10 @@ std::vector<Parameter> mouse_fields() {
     fields.push_back(choice("button", {"left", "right", "middle"},
                             "The button, left if it is left out; of a press.")
                          .optional("left"));
-    fields.push_back(number("pressure",
-                            "Of a pen, 0 to 1; 1 if it is left out, as a mouse has none.")
-                         .between(0, 1)
-                         .optional("1"));
+    fields.push_back(
+        number("pressure", "Of a pen, 0 to 1; 1 if it is left out, as a mouse has none.")
+            .between(0, 1)
+            .optional("1"));
     fields.push_back(
         boolean("late", "Whether a later place of the same drag is known already; of a move.")
             .optional());
