@@ -44,6 +44,17 @@ double weight_of(const MergeReport& report) {
     return sum;
 }
 
+// Shorter crumpled edges, in radii of the seams, do not show.
+constexpr double kFewCrumpled = 0.25;
+// Part of the crumpled edges that fairing takes away, if it is worth it.
+constexpr double kFairerBy = 0.1;
+
+double crumpled_sum(const MergeReport& report) {
+    double sum = 0.0;
+    for (const JoinReport& join : report.joins) sum += join.band.crumpled;
+    return sum;
+}
+
 }  // namespace
 
 bool has_surface_faults(const MergeReport& report) {
@@ -61,6 +72,16 @@ std::string fault_names(const MergeReport& report) {
 bool is_better(const MergeReport& report, const MergeReport& than, bool ties) {
     const double weight = weight_of(report), least = weight_of(than);
     return weight < least || (ties && weight <= least && unrest(report) < unrest(than));
+}
+
+bool is_crumpled(const MergeReport& report) {
+    return crumpled_sum(report) > kFewCrumpled;
+}
+
+bool is_fairer(const MergeReport& report, const MergeReport& than) {
+    const double weight = weight_of(report), before = weight_of(than);
+    const bool fairer = crumpled_sum(report) < (1.0 - kFairerBy) * crumpled_sum(than);
+    return weight < before || (weight <= before && fairer);
 }
 
 std::vector<Index> showing_faces(std::span<const CrossingGroup> groups) {

@@ -21,6 +21,13 @@ std::string fault_names(const MergeReport& report);
 /// `ties`, as many with a surface that turns by less in the bands around the seams.
 bool is_better(const MergeReport& report, const MergeReport& than, bool ties);
 
+/// Whether a side crumpled beside the seams along enough edges to show.
+bool is_crumpled(const MergeReport& report);
+
+/// Whether the sides of a report crumpled along a tenth less than those of another, or have fewer
+/// faults, and no more.
+bool is_fairer(const MergeReport& report, const MergeReport& than);
+
 /// Returns the faces of the groups that cross at a seam and show.
 std::vector<Index> showing_faces(std::span<const CrossingGroup> groups);
 

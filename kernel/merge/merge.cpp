@@ -88,7 +88,9 @@ BandQuality band_of(const Boundaries& from, Configuration configuration, const S
     const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
     const std::vector<Vec3> rest =
         places_on_second(sewn.map, from.source.mesh, from.target.vertex_count());
-    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam, false, rest},
+    const std::vector<Vec3> target_rest = places_on_first(sewn.map, from.target);
+    return band_quality({&sewn.mesh, of_target, seam, false, target_rest},
+                        {&sewn.mesh, of_source, seam, false, rest},
                         {&from.target, {}, from.target_loops[j]},
                         {&from.source.mesh, {}, from.source.loops[j]}, join.scale,
                         configuration == Configuration::fixed, context);

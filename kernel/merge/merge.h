@@ -117,12 +117,14 @@ struct MergeOptions {
     /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
     bool find_intersections = true;
-    /// If the verdict finds fault with the surface around the seams, and a seam that conforms
-    /// without a transition is asked for, smooths thorns that the source did not have, if they are
-    /// all; else sews again with the seam fair and then with a transition of suitable widths, and
-    /// keeps the result with fewest faults; a warning says so.
-    /// Takes the time of sewing up to three times. Not of the thesis's way, nor if `collar` is off
-    /// or `smooth` is 0.
+    /// If a seam that conforms without a transition is asked for, fairs the places beside it at
+    /// which edges of a side turn by 20 degrees more than at rest, as far as that leaves fewer of
+    /// them and no more faults. If the verdict still finds fault with the surface around the seams,
+    /// smooths thorns that the source did not have, if they are all; else sews again with the seam
+    /// fair and then with a transition of suitable widths, and keeps the result with fewest faults;
+    /// a warning says so. Creases and flat faces of the targets stay.
+    /// Takes the time of sewing up to three times, and of judging up to twelve times. Not of the
+    /// thesis's way, nor if `collar` is off or `smooth` is 0.
     bool mend = false;
     /// Directions of source and targets that are to lie the same way, for joins without keys. They
     /// count as far as they lie in the planes of the boundaries.

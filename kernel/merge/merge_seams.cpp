@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
+#include "kernel/merge/blend/fair_spots.h"
 #include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
@@ -242,6 +243,20 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
     const std::vector<Vec3> rest =
         places_on_second(merged.sewn.map, boundaries.source.mesh, boundaries.target.vertex_count());
     if (!relax_faults(merged.sewn, {crossing, firm, rest}, rings, context)) return false;
+    if (options.find_intersections) find_crossings(boundaries, merged, context);
+    return true;
+}
+
+bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, Index rings,
+                MergedSides& merged, const Context& context) {
+    const std::vector<Vec3> source =
+        places_on_second(merged.sewn.map, boundaries.source.mesh, boundaries.target.vertex_count());
+    const std::vector<Vec3> target = places_on_first(merged.sewn.map, boundaries.target);
+    std::vector<Index> firm = creases_of(boundaries, true);
+    add_flat_faces(boundaries.target, firm);
+    if (!fair_spots(merged.sewn, {source, target, became_of(merged.sewn, firm), rings}, context)) {
+        return false;
+    }
     if (options.find_intersections) find_crossings(boundaries, merged, context);
     return true;
 }

@@ -255,6 +255,11 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
                  const MergeReport& report, Index rings, MergedSides& merged,
                  const Context& context);
 
+/// Fairs the places beside the seams at which a side crumpled (fair_spots), with `rings` around
+/// them. Returns false, and changes nothing, if there are none.
+bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, Index rings,
+                MergedSides& merged, const Context& context);
+
 MergeReport report_of(const PreparationReport& prepared, const Boundaries& boundaries,
                       const MergeOptions& options, const Matching& matching,
                       const DeformedSource& moved, const MergedSides& merged,

@@ -149,20 +149,34 @@ std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
     return kept;
 }
 
-std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count) {
+namespace {
+
+// Place of each vertex on the mesh whose vertices have the numbers from `begin` on in the map; NaN
+// for one that was not on it.
+std::vector<Vec3> places_on(const MeshMap& map, const Mesh& mesh, Index begin) {
     std::vector<Vec3> places;
     places.reserve(at(map.vertices.size()));
     for (Index v = 0; v < map.vertices.size(); ++v) {
         Vec3 sum = Vec3::Zero();
         double weight = 0.0;
         for (const ElementMap::Source& from : map.vertices[v]) {
-            if (from.element < first_count) continue;
-            sum += from.weight * second.position(from.element - first_count);
+            if (from.element < begin || from.element >= begin + mesh.vertex_count()) continue;
+            sum += from.weight * mesh.position(from.element - begin);
             weight += from.weight;
         }
         places.push_back(weight > 0.0 ? Vec3(sum / weight) : Vec3(Vec3::Constant(NAN)));
     }
     return places;
+}
+
+}  // namespace
+
+std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count) {
+    return places_on(map, second, first_count);
+}
+
+std::vector<Vec3> places_on_first(const MeshMap& map, const Mesh& first) {
+    return places_on(map, first, 0);
 }
 
 }  // namespace lissom

@@ -37,4 +37,7 @@ std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
 /// has `first_count` vertices: the weighted mean of its origins there, or NaN without any.
 std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count);
 
+/// The same of the first mesh, whose elements keep their numbers.
+std::vector<Vec3> places_on_first(const MeshMap& map, const Mesh& first);
+
 }  // namespace lissom

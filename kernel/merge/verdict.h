@@ -44,7 +44,8 @@ struct Verdict {
 ///   than 8 degrees an edge; the source by itself 1.6 times as rough as it was, or it turns by less
 ///   than 11 degrees, merged above 14 degrees 1.4 times; the target 1.3 times, or by 5 degrees, as
 ///   a whole and at its edges below 40 degrees; the source at those 1.3 times, or by 11 degrees, or
-///   it gained edges of more than 25 degrees along at most 2 radii;
+///   it gained edges of more than 25 degrees along at most 2 radii; and edges of a merge that turn
+///   by 20 degrees more than at rest, or the other way, are together at most 6 radii long;
 /// - each part keeps two fifths of its volume at its scale, and the target of a paste half of its
 ///   area;
 /// - planes fitted to either side of the seam differ by at most 35 degrees in the mean, 60 along a

@@ -200,11 +200,11 @@ std::vector<OptionRow> option_rows(bool slow) {
          }},
         {boolean(
              "mend",
-             "If the verdict finds fault with the surface around the seams, and neither `seam` "
-             "nor `transition` is given, sews again with the seam fair and then with a "
-             "transition, and keeps the result with fewest faults; a warning says so. Takes the "
-             "time "
-             "of sewing up to three times. Not without smoothing or collar.")
+             "If neither `seam` nor `transition` is given, fairs the places beside the seams at "
+             "which a side became crumpled. If the verdict still finds fault with the surface "
+             "there, sews again with the seam fair and then with a transition, and keeps the "
+             "result with fewest faults; a warning says so. Takes the time of sewing up to three "
+             "times. Not without smoothing or collar.")
              .defaults(slow),
          Bridge::taken,
          [](const Call& call, MergeOptions& to) {

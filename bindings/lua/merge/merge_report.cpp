@@ -86,6 +86,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("target_grain", call.push(kDegrees * band.target_grain));
     call.set_field("rest_target_grain", call.push(kDegrees * band.rest_target_grain));
     call.set_field("wrinkled", call.push(band.wrinkled));
+    call.set_field("crumpled", call.push(band.crumpled));
     call.set_field("steep", call.push(kDegrees * band.steep));
     call.set_field("rest_steep", call.push(kDegrees * band.rest_steep));
     call.set_field("bend", call.push(kDegrees * band.bend));
@@ -544,6 +545,9 @@ std::vector<Record> merge_records() {
           {"number", "wrinkled",
            "Length of the source's edges within half a radius that turn by more than 25 degrees, "
            "in radii of the seam, beyond that before."},
+          {"number", "crumpled",
+           "Length of the edges of both sides within half a radius that turn by over 20 degrees "
+           "more than at rest, or the other way, in radii of the seam."},
           {"number", "steep", "Angle of the seam's edges that a thirtieth of its length exceeds."},
           {"number", "rest_steep",
            "The same of the edges of the faces at the boundaries before, of the steeper side."},

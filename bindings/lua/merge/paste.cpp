@@ -263,9 +263,10 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
                 "target towards the relaxed position of the part.")
             .defaults(true),
         boolean("mend",
-                "If the verdict finds fault with the surface around the seam, tries a fair seam, a "
-                "transition and, with `compare`, other boundaries, and keeps the result with "
-                "fewest faults; a warning says so. Not without smoothing or collar.")
+                "Fairs the places beside the seam at which a side became crumpled. If the verdict "
+                "still finds fault with the surface there, tries a fair seam, a transition and, "
+                "with `compare`, other boundaries, and keeps the result with fewest faults; a "
+                "warning says so. Not without smoothing or collar.")
             .defaults(true)};
 }
 

@@ -325,6 +325,7 @@
 ---@field target_grain number The same of the target alone.
 ---@field rest_target_grain number The same of the target before.
 ---@field wrinkled number Length of the source's edges within half a radius that turn by more than 25 degrees, in radii of the seam, beyond that before.
+---@field crumpled number Length of the edges of both sides within half a radius that turn by over 20 degrees more than at rest, or the other way, in radii of the seam.
 ---@field steep number Angle of the seam's edges that a thirtieth of its length exceeds.
 ---@field rest_steep number The same of the edges of the faces at the boundaries before, of the steeper side.
 ---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
@@ -1393,7 +1394,7 @@ function Mesh:erase(region, options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
----@field mend? boolean If the verdict finds fault with the surface around the seam, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
+---@field mend? boolean Fairs the places beside the seam at which a side became crumpled. If the verdict still finds fault with the surface there, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
 
 ---A new mesh that has a feature of this one twice: it is pasted onto another place of the same mesh, along the loop around it that fits best (lissom.paste with itself as target).
 ---@param options lissom.Mesh.CloneOptions
@@ -2131,7 +2132,7 @@ function Paste:optimize(options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
----@field mend? boolean If the verdict finds fault with the surface around the seam, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
+---@field mend? boolean Fairs the places beside the seam at which a side became crumpled. If the verdict still finds fault with the surface there, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
 ---@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more unless faces turn over at it, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
@@ -4548,7 +4549,7 @@ function lissom.transfer(options) end
 ---@field max_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
----@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: true.
+---@field mend? boolean If neither `seam` nor `transition` is given, fairs the places beside the seams at which a side became crumpled. If the verdict still finds fault with the surface there, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: true.
 ---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, unless another option differs; the page thesis.md of the reference names all of it. Default: "default".
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
@@ -4587,7 +4588,7 @@ function lissom.merge(source, target, options) end
 ---@field max_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
----@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: false.
+---@field mend? boolean If neither `seam` nor `transition` is given, fairs the places beside the seams at which a side became crumpled. If the verdict still finds fault with the surface there, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: false.
 ---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, unless another option differs; the page thesis.md of the reference names all of it. Default: "default".
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.

@@ -9,6 +9,7 @@
 
 #include "kernel/merge/loop/band_pinch.h"
 #include "kernel/merge/loop/band_spike.h"
+#include "kernel/merge/loop/crumpled_edges.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/rim_flare.h"
 #include "kernel/mesh/query/distances.h"
@@ -367,6 +368,12 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.wrinkled = gained(on_source, old_source, &EdgeSum::wrinkled);
     result.spike = on_target.spike();
     result.rest_spike = std::max(old_target.spike(), old_source.spike());
+    if (!made_source.rest.empty()) {
+        result.crumpled += crumpled_length(on_source.rim(), made_source.rest);
+    }
+    if (!made_target.rest.empty()) {
+        result.crumpled += crumpled_length(on_target.rim(), made_target.rest);
+    }
     if (!made_source.rest.empty()) result.pinched = on_source.pinched(made_source.rest);
     if (!made_source.rest.empty() && !made_source.meets_at_crease) {
         const bool inside_out = old_source.volume(old_source.middle()) < 0.0;

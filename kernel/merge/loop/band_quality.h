@@ -48,6 +48,10 @@ struct BandQuality {
     /// that became thorns or pits: their neighbours slope away from them by 30 degrees more than at
     /// rest, to either side (pinches). 0 if the origin of its vertices is unknown.
     double pinched = 0.0;
+    /// Length of the edges of both sides within half a radius that turn by 20 degrees more than at
+    /// rest, or the other way, in radii of the seam (crumpled_edges). Those of a side count if the
+    /// origin of its vertices is known.
+    double crumpled = 0.0;
     /// Outward turn of the source between neighbouring strips beside the seam, beyond that at rest,
     /// which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if the origin of
     /// its vertices is unknown, and of a paste, whose rim is tilted on purpose.
@@ -73,8 +77,8 @@ struct BandSide {
     std::span<const Index> loop = {};
     /// The mesh is a piece of a larger one: its volume is not known.
     bool is_piece = false;
-    /// For a source in a merged mesh: the place of each vertex of the mesh on the source at rest,
-    /// NaN for a vertex that was not on it.
+    /// For a side in a merged mesh: the place of each vertex of the mesh on that side at rest, NaN
+    /// for a vertex that was not on it.
     std::span<const Vec3> rest = {};
     /// It may meet the target at a crease, so that its rim is tilted on purpose.
     bool meets_at_crease = false;

@@ -70,9 +70,11 @@ struct PasteMergeOptions {
     /// was called and by nearest points, a boundary that slides over the target towards the relaxed
     /// position of the part. If the target was cleared under the boundary, that is kept.
     bool compare = true;
-    /// If the verdict finds fault with the surface around the seam, tries a fair seam, a transition
-    /// and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning
-    /// says so. Not of drafts and the thesis's way, nor if `collar` is off or `smooth` is 0.
+    /// Fairs the places beside the seam at which edges of a side turn by 20 degrees more than at
+    /// rest, as far as that leaves fewer of them and no more faults. If the verdict still finds
+    /// fault with the surface there, tries a fair seam, a transition and, with `compare`, other
+    /// boundaries, and keeps the result with fewest faults; a warning says so. Not of drafts and
+    /// the thesis's way, nor if `collar` is off or `smooth` is 0.
     bool mend = false;
     /// A draft for dragging, many times a second: placement and boundary are those of a merge that
     /// is no draft, and the result is watertight, but the part is not refined, nor does its

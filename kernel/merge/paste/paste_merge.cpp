@@ -11,6 +11,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/blend/fair_seam.h"
+#include "kernel/merge/blend/fair_spots.h"
 #include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/creases.h"
@@ -239,8 +240,9 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
         const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
         const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
         const std::vector<Vec3> rest = places_on_second(sewn.map, part.mesh, target.vertex_count());
+        const std::vector<Vec3> target_rest = places_on_first(sewn.map, target);
         report.joins[0].band =
-            band_quality({&sewn.mesh, of_target, sewn.seams[0]},
+            band_quality({&sewn.mesh, of_target, sewn.seams[0], false, target_rest},
                          {&sewn.mesh, of_source, sewn.seams[0], false, rest, true},
                          {&laid.opened.mesh, {}, laid.opened.loop, true},
                          {&part.mesh, {}, part.loop}, join.scale, false, context);
@@ -383,7 +385,18 @@ class PasteJudge {
 
     // The part, or the same sewn another way that has fewer faults.
     JudgedPart mended(JudgedPart best, const Context& context) const {
-        if (!may_mend(best.report)) return best;
+        if (!may_change()) return best;
+        const std::string plain_faults = best.report.ok ? "" : fault_names(best.report);
+        fair(best, context);
+        if (best.report.ok && !plain_faults.empty()) {
+            note_mended(plain_faults, "its crumpled places are fair", best.report);
+        }
+        return has_surface_faults(best.report) ? mended_otherwise(std::move(best), context) : best;
+    }
+
+  private:
+    // The same sewn another way, if it has fewer faults.
+    JudgedPart mended_otherwise(JudgedPart best, const Context& context) const {
         const std::string faults = fault_names(best.report);
         const SewnPart plain = best.pasted;
         std::string taken;
@@ -392,6 +405,7 @@ class PasteJudge {
         for (const auto& [way, name] : kWays) {
             if (best.report.ok) break;
             std::optional<JudgedPart> other = attempt(way, plain, context);
+            if (other) fair(*other, context);
             if (!other || !is_better(other->report, best.report, !taken.empty())) continue;
             best = *std::move(other);
             taken = name;
@@ -403,7 +417,6 @@ class PasteJudge {
         return best;
     }
 
-  private:
     enum class Way { fair, transition, outline, tight };
     static constexpr std::pair<Way, const char*> kWays[] = {
         {Way::fair, "it is fair"},
@@ -411,9 +424,19 @@ class PasteJudge {
         {Way::outline, "the marked outline is taken"},
         {Way::tight, "the feature's own outline is taken"}};
 
-    bool may_mend(const MergeReport& report) const {
+    bool may_change() const {
         return options_.mend && !options_.draft && options_.collar && options_.smooth > 0 &&
-               !on_.trials.options.thesis && has_surface_faults(report);
+               !on_.trials.options.thesis;
+    }
+
+    // Fairs the places at which a side crumpled, as far as that leaves fewer and no more faults.
+    void fair(JudgedPart& best, const Context& context) const {
+        for (Index rings = kMinSpotRings; rings <= kMaxSpotRings && is_crumpled(best.report);
+             ++rings) {
+            std::optional<JudgedPart> tried = faired(best, rings, context);
+            if (!tried) break;
+            if (is_fairer(tried->report, best.report)) best = *std::move(tried);
+        }
     }
 
     std::optional<JudgedPart> attempt(Way way, const SewnPart& plain,
@@ -467,6 +490,21 @@ class PasteJudge {
             better = true;
         }
         return better;
+    }
+
+    // Fair at the places at which a side crumpled; nothing if there are none.
+    std::optional<JudgedPart> faired(const JudgedPart& from, Index rings,
+                                     const Context& context) const {
+        SewnPart part = from.pasted;
+        Sewn& sewn = part.sewn;
+        const Mesh& target = part.laid.opened.mesh;
+        const std::vector<Vec3> source =
+            places_on_second(sewn.map, part.laid.trial.part().mesh, target.vertex_count());
+        const std::vector<Vec3> rest = places_on_first(sewn.map, target);
+        const std::vector<Index> firm = became_of(sewn, shaped_vertices(part.laid.opened));
+        if (!fair_spots(sewn, {source, rest, firm, rings}, context)) return std::nullopt;
+        part.bite = bite_on(on_.trials, on_.piece, part.laid, sewn, context);
+        return judged(std::move(part), context);
     }
 
     // Smoothed at folds, crossings, thorns and pits; nothing if it has none.

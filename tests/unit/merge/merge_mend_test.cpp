@@ -47,6 +47,27 @@ TEST_CASE("a seam that the verdict finds fault with is sewn another way, which i
     CHECK(mended.report.joins[0].band.flare < plain.report.joins[0].band.flare);
 }
 
+TEST_CASE("pits of a fluted rim do not go on into a smooth part, and the far side stays") {
+    const Mesh source = tube(20, 6, [](double angle, double height) {
+        return Vec3(std::sin(angle), 1.4 + 2.0 * height, std::cos(angle));
+    });
+    const Mesh target = tube(96, 31, [](double angle, double height) {
+        const double flute = std::pow(std::max(0.0, std::cos(4.0 * angle)), 8.0);
+        const double radius = 1.0 - 0.15 * flute * height;
+        return Vec3(radius * std::sin(angle), height, radius * std::cos(angle));
+    });
+    const auto crumpled = [](const MergeResult& r) { return r.report.joins[0].band.crumpled; };
+    const MergeResult plain = merge(source, target),
+                      faired = merge(source, target, {}, {.mend = true});
+    REQUIRE(crumpled(plain) > 1.0);
+    CHECK(crumpled(faired) < 0.5 * crumpled(plain));
+    CHECK(faired.report.ok);
+    for (Index v = 0; v < target.vertex_count(); ++v) {
+        const Vec3& p = target.position(v);
+        if (p.y() < 0.3) CHECK(faired.mesh.position(v) == p);
+    }
+}
+
 TEST_CASE("a seam is not mended that is good, was asked for, or must keep the target") {
     CHECK(!is_told(cylinder_on_jug({.seam = SeamKind::fair, .mend = true}).report));
     const MergeOptions firm{.smooth = 0, .collar = false};

@@ -74,10 +74,13 @@ struct Column : SeamColumn {
         report.source_rim = report.target_rim = seam_quality(rest, {&seam, 1});
         report.seam.after = seam_quality(made, {&seam, 1});
         report.joins.resize(1);
-        report.joins[0].band =
-            band_quality({&made, below, seam}, {&made, above, seam, false, rest.positions()},
-                         {&rest, below, seam}, {&rest, above, seam}, 1.0, false);
+        report.joins[0].band = band(made, rest);
         return verdict_of(report, {});
+    }
+    BandQuality band(const Mesh& made, const Mesh& rest) const {
+        return band_quality({&made, below, seam, false, rest.positions()},
+                            {&made, above, seam, false, rest.positions()}, {&rest, below, seam},
+                            {&rest, above, seam}, 1.0, false);
     }
     Verdict judged(const Mesh& made) const { return judged(made, mesh); }
 };
@@ -229,4 +232,52 @@ TEST_CASE("wrinkles between the creases of a source are found, creases that stay
         reason_of(column.judged(wrinkle(0.013), fluted), MergeFault::roughness);
     CHECK_MESSAGE(found.text.find("the source between its creases") != std::string::npos,
                   found.text);
+}
+
+TEST_CASE("dimples of a rough source that it did not have are found, a bend of all of it is not") {
+    const Column column;
+    const auto roughen = [](Vec3& p) {
+        if (std::abs(p.y()) > 0.05) scale_out(p, 1.0 + 0.6 * (out_of_row(p) - 1.0));
+    };
+    const Mesh rough = column.moved(roughen);
+    const auto bent = [](Vec3& p) { p.x() += 0.15 * p.y() * p.y(); };
+    const Mesh leaning = column.moved([&](Vec3& p) {
+        roughen(p);
+        bent(p);
+    });
+    CHECK(column.judged(leaning, rough).good);
+    CHECK(column.band(leaning, rough).crumpled < 0.1);
+    const auto dimpled = [&](double depth) {
+        return column.moved([&](Vec3& p) {
+            const double around = std::cos(12.0 * std::atan2(p.x(), p.z()));
+            const double up = std::exp(-std::pow((p.y() - 0.2) / 0.08, 2.0));
+            roughen(p);
+            if (p.y() > 0.0) scale_out(p, 1.0 - depth * around * up);
+            bent(p);
+        });
+    };
+    CHECK(column.band(dimpled(0.001), rough).crumpled < 0.1);
+    const Mesh found = dimpled(0.2);
+    const double length = column.band(found, rough).crumpled;
+    CHECK(length > 6.0);
+    CHECK(!column.judged(found, rough).good);
+    // However both lie, and of any size.
+    CHECK(column.band(moved(found, turned(1e3)), rough).crumpled == doctest::Approx(length));
+    CHECK(column.band(found, moved(rough, turned(1e-3))).crumpled == doctest::Approx(length));
+}
+
+TEST_CASE("corners of a source that become round at the seam are no crumpled edges") {
+    const Column column;
+    const auto polygonal = [](Vec3& p, double sides, double share) {
+        const double angle = std::atan2(p.x(), p.z());
+        const double part = 2.0 * kPi / sides, off = std::remainder(angle, part);
+        const double flat = std::cos(0.5 * part) / std::cos(std::abs(off) - 0.5 * part);
+        scale_out(p, 1.0 + share * (1.0 / flat * std::cos(0.5 * part) - 1.0));
+    };
+    for (const double sides : {6.0, 8.0, 12.0}) {
+        const Mesh rest = column.moved([&](Vec3& p) { polygonal(p, sides, 1.0); });
+        const Mesh made =
+            column.moved([&](Vec3& p) { polygonal(p, sides, std::clamp(2.0 * p.y(), 0.0, 1.0)); });
+        CHECK(column.band(made, rest).crumpled < 0.5);
+    }
 }

@@ -295,6 +295,22 @@ TEST_CASE("thorns and pits of the source that it did not have are folds, unless 
     CHECK(verdict_of(fits, {}).good);
 }
 
+TEST_CASE("edges of a merge that turn more than at rest are folds, unless the parts fit") {
+    BandQuality band = good_band();
+    band.crumpled = 5.5;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.crumpled = 8.0;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::folds);
+    CHECK(reason.value == doctest::Approx(8.0));
+    CHECK(reason.text.find("edges along 8.0 of its radius") != std::string::npos);
+    MergeReport crumpled = report_with(band);
+    judge(crumpled, {});
+    CHECK(!has_only_thorns(crumpled));
+    crumpled.joins.front().fits = true;
+    CHECK(verdict_of(crumpled, {}).good);
+}
+
 TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
     MergeReport report = report_with(good_band());
     report.intersections.resize(3);
