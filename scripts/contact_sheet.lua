@@ -34,21 +34,12 @@ local function turned(style, hair, turn)
     return head
 end
 
--- The ponytail has options of its own for the growth.
-local function grown(name, head)
-    local preset = require("presets." .. name)
-    if name ~= "ponytail" then return preset.grow(head, {}, { count = params.count }) end
-    local style, hair = preset.grow(head, {}, {}, { count = params.count })
-    styling.tail_ends(hairdo.cull_missed(hair, style:scalp()):smooth{ iterations = 2 }, 1, "ponytail")
-    return style, styling.set_width(hair, 0.00028), { color = "#6b4a2f" }
-end
-
 local heads, strands, captions, camera = {}, {}, {}, nil
 for _, one in ipairs(presets) do
     local name, turn, color = one[1], one[2], one[3]
     if params.only == "" or params.only == name then
         local head = lissom.shapes.head{ vertices = 12000 }
-        local style, hair, look = grown(name, head)
+        local style, hair, look = require("presets." .. name).grow(head, {}, { count = params.count })
         -- Hair of several colours keeps them.
         local shown = styling.colors[color] or look.color
         if shown then hair:set_colors{ color = styling.linear(shown) } end

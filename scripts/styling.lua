@@ -178,6 +178,23 @@ function styling.radial(style, length, rise)
     styling.streams(style, routes)
 end
 
+--- Adds streams of a standing fin so many metres wide: from the middle and both of its edges up into one
+-- plane, in even steps around the head; across it in metres, as azimuths mean little near the crown.
+function styling.fin(style, width)
+    local function place(turn, lift, across)
+        local azimuth, elevation = turn > 90 and 180 or 0, turn > 90 and 180 - turn or turn
+        local p = styling.off(style:scalp(), azimuth, elevation, lift)
+        return { "at", 1000 * across * width, 1000 * p[2], 1000 * p[3] }
+    end
+    for turn = 36, 216, 12 do
+        local up = 0.06 * (90 - turn)
+        for _, edge in ipairs{ 0, 0.48 } do
+            styling.streams(style, { { place(turn, edge == 0 and 2 or -2, edge),
+                place(turn + up, 40, 0.75 * edge), place(turn + 1.5 * up, 110, 0.5 * edge), stop = false } })
+        end
+    end
+end
+
 -- Long hair behind the shoulders, and before them. Behind them it narrows, deepest in the middle.
 styling.behind = {
     { { 12, 50, 9 }, { 30, 40, 16 }, { 50, 24, 19 }, { 66, 6, 22 }, { "at", 90, -60, 22 }, { "at", 82, -115,
@@ -245,6 +262,19 @@ function styling.loose_waves(hair, scalp, options)
         keep_length = false }
     for key, value in pairs(options) do all[key] = value end
     return hair:wave(all)
+end
+
+--- Loose waves of grown long hair in locks, cut `length` metres below the middle of the head: none hangs over
+-- the face. `options` has `locks`, their number, `factor` of hair:gather, `ragged` of the ends, `clump`, the
+-- strength of finer locks, and `wave`, the options of styling.loose_waves.
+function styling.wavy(hair, scalp, length, options)
+    hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
+    hair:cull{ mask = styling.over_face(scalp, hair) }
+    hair:cut{ hem = { { 0, -length - 0.01 } }, scalp = scalp }
+    hair:gather{ guides = options.locks, factor = options.factor, ramp = 0.2, spread = 0.006 }
+    styling.loose_waves(hair, scalp, options.wave)
+    styling.ragged_hem(hair, scalp, { { 0, -length } }, options.ragged, options.wave.seed)
+    return hair:clump{ clumps = 420, strength = options.clump or 0.6, shape = 1.5, tip_spread = 0.002 }
 end
 
 --- Straight long hair of a style: grown, in locks, cut `length` metres below the middle of the head, lowest

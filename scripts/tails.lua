@@ -77,6 +77,34 @@ function tails.way_over_shoulder(scalp, tie, away)
     return points
 end
 
+--- The angle in degrees by which a point in metres of the scalp's frame lies beside the middle of the head.
+function tails.across(p)
+    return math.deg(math.asin(p[1] / math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2)))
+end
+
+-- Azimuth and elevation `along` degrees over the head in the row `across` degrees beside its middle.
+local function place_in_row(across, along)
+    local a, t = math.rad(across), math.rad(along)
+    return styling.angles{ math.sin(a), math.cos(a) * math.sin(t), math.cos(a) * math.cos(t) }
+end
+
+--- The middle of a row of hair from the forehead over the head to the nape, `across` degrees beside the
+-- middle, in the unit of the head, and on as a tail of so many metres.
+function tails.row(scalp, across, tail)
+    local points, last = {}, 215 - 0.43 * math.abs(across)
+    for along = 34, last, 5 do
+        local azimuth, elevation = place_in_row(across, along)
+        points[#points + 1] = scalp:at{ azimuth = azimuth, elevation = elevation,
+            lift = 0.0003 + 0.0027 * styling.smooth(34, 90, along) }
+    end
+    local q = scalp:to_metres(points[#points])
+    for j = 1, 6 do
+        points[#points + 1] = scalp:from_metres{ q[1] * (1 + 0.02 * j), q[2] - tail * j / 6,
+            q[3] * (1 + 0.01 * j) - 0.006 * math.min(j, 2) }
+    end
+    return points
+end
+
 -- Ways of hair to a tie at one side.
 local function leads(side)
     return { { { side * 6, 42 }, { side * 40, 50 }, { side * 78, 36 }, { side * 108, 20 } },

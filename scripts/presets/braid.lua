@@ -2,7 +2,7 @@
 --
 --     lissom run scripts/presets/braid.lua --length 0.3 --radius 0.011
 local hairdo = require "hairdo"
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local styling = require "styling"
 local tails = require "tails"
 
@@ -21,7 +21,7 @@ return styling.preset(..., {
             help = "below the braid" },
     },
     make = function(head, v, o)
-        local style, hair, tie = ponytail.grow(head,
+        local style, hair, tie = ponytails.grow(head,
             { height = v.height, tightness = v.tightness, length = 0.1, lift = 0.016, seed = v.seed },
             { scalp = o.scalp, resolution = o.resolution }, { count = o.count })
         local spine = tails.way_down(o.scalp, tie, v.length + v.tuft + 0.05, 1.9 * v.radius)

@@ -1,7 +1,7 @@
 --- A bun: hair is gathered at a tie and wound around it.
 --
 --     lissom run scripts/presets/bun.lua --height 45 --radius 0.022
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local styling = require "styling"
 
 return styling.preset(..., {
@@ -18,13 +18,10 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style, hair, tie = ponytail.grow(head,
+        local style, hair, tie = ponytails.grow(head,
             { height = v.height, tightness = v.tightness, length = 0.05, lift = 0.016, seed = v.seed },
             { scalp = scalp, resolution = o.resolution }, { count = o.count })
-        local at = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
-        hair:smooth{ iterations = 3 }
-        hair:bun{ center = scalp:at(at), direction = scalp:normal_at(at), scalp = scalp, radius = v.radius,
-            tube = 1.11 * v.radius, turn = v.turn, reach = 2.2 * tie.radius, seed = v.seed }
+        ponytails.wind(hair, scalp, tie, v.radius, { tube = 1.11 * v.radius, turn = v.turn, seed = v.seed })
         hair:frizz{ amplitude = 0.0008, wavelength = 0.03, flyaways = 0.02, flyaway = 5 }
         styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.001 }
         return style, hair, { unit = scalp:unit() }

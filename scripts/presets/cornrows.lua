@@ -3,30 +3,7 @@
 --     lissom run scripts/presets/cornrows.lua --rows 9 --tails 0.16
 local lissom = require "lissom"
 local styling = require "styling"
-
-local first, step = 34, 5
-
--- The direction `along` degrees over the head in the row `across` degrees beside its middle.
-local function place(across, along)
-    local a, t = math.rad(across), math.rad(along)
-    return styling.angles{ math.sin(a), math.cos(a) * math.sin(t), math.cos(a) * math.cos(t) }
-end
-
--- The middle of a row, in the unit of the head, and on as a tail of so many metres.
-local function spine_of(scalp, across, tail)
-    local points, last = {}, 215 - 0.43 * math.abs(across)
-    for t = first, last, step do
-        local azimuth, elevation = place(across, t)
-        points[#points + 1] = scalp:at{ azimuth = azimuth, elevation = elevation,
-            lift = 0.0003 + 0.0027 * styling.smooth(34, 90, t) }
-    end
-    local q = scalp:to_metres(points[#points])
-    for j = 1, 6 do
-        points[#points + 1] = scalp:from_metres{ q[1] * (1 + 0.02 * j), q[2] - tail * j / 6,
-            q[3] * (1 + 0.01 * j) - 0.006 * math.min(j, 2) }
-    end
-    return points
-end
+local tails = require "tails"
 
 return styling.preset(..., {
     name = "cornrows",
@@ -48,8 +25,7 @@ return styling.preset(..., {
         local pitch, unit, braids = 149.5 / v.rows, scalp:unit(), nil
         local size = v.thickness * pitch / 11.5
         local function across(x, y, z)
-            local p = scalp:to_metres(x / unit, y / unit, z / unit)
-            return math.deg(math.asin(p[1] / math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2)))
+            return tails.across(scalp:to_metres(x / unit, y / unit, z / unit))
         end
         for row = 1, v.rows do
             local middle = (row - (v.rows + 1) / 2) * pitch
@@ -57,7 +33,7 @@ return styling.preset(..., {
                 return math.abs(across(x, y, z) - middle) < 0.5 * (1 - v.gap) * pitch
             end }
             if #one > 0 then
-                one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
+                one:feed_braid{ spine = tails.row(scalp, middle, v.tails), scalp = scalp,
                     across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
                     high = 0.0019 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
                     max_run = 0.06, tail = 0.35, begin_size = 0.4, end_size = 0.55, step = 0.0019,

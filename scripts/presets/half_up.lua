@@ -1,7 +1,7 @@
 --- Half up: the upper hair is wound to a bun over loose waves of the rest.
 --
 --     lissom run scripts/presets/half_up.lua --length 0.2 --bun 0.02
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local styling = require "styling"
 
 -- The lower hair begins below the line that parts it from the upper.
@@ -41,24 +41,16 @@ return styling.preset(..., {
         local hair = low:grow{ count = math.floor(0.8 * o.count), seed = v.seed, length = 0.225 + v.length,
             layer = 0.01, clearance = 0.003,
             density = styling.by_angles(scalp, function(...) return 1 - upper(...) end) }
-        hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
-        hair:cull{ mask = styling.over_face(scalp, hair) }
-        hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
-        hair:gather{ guides = 140, factor = 0.4, ramp = 0.2, spread = 0.006 }
-        styling.loose_waves(hair, scalp, { radius = v.wave, wavelength = 0.095, start = 0.03, ramp = 0.12,
-            depth = 0.35, seed = v.seed })
-        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.012, v.seed)
-        hair:clump{ clumps = 420, strength = 0.55, shape = 1.5, tip_spread = 0.002 }
+        styling.wavy(hair, scalp, v.length, { locks = 140, factor = 0.4, ragged = 0.012, clump = 0.55,
+            wave = { radius = v.wave, wavelength = 0.095, start = 0.03, ramp = 0.12, depth = 0.35,
+                seed = v.seed } })
         hair:push_out{ head = low, clearance = 0.003 }
-        local style, up, tie = ponytail.grow(head,
+        local style, up, tie = ponytails.grow(head,
             { height = 38, tightness = 0.75, length = 0.05, lift = 0.016, seed = v.seed },
             { scalp = scalp, resolution = o.resolution, hard = true },
             { count = math.floor(0.7 * o.count), density = styling.by_angles(scalp, upper),
                 seed = v.seed + 101 })
-        local at = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
-        up:smooth{ iterations = 3 }
-        up:bun{ center = scalp:at(at), direction = scalp:normal_at(at), scalp = scalp, radius = v.bun,
-            tube = 1.13 * v.bun, reach = 2.2 * tie.radius, seed = v.seed }
+        ponytails.wind(up, scalp, tie, v.bun, { tube = 1.13 * v.bun, seed = v.seed })
         up:frizz{ amplitude = 0.001, wavelength = 0.03, flyaway = 5 }:push_out{ head = style,
             clearance = 0.001 }
         styling.finish(hair:append(up), 0.00026, 0.001)

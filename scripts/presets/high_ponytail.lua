@@ -2,7 +2,7 @@
 --
 --     lissom run scripts/presets/high_ponytail.lua --length 0.35 --wave 0.008
 local hairdo = require "hairdo"
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local styling = require "styling"
 
 return styling.preset(..., {
@@ -19,7 +19,7 @@ return styling.preset(..., {
             help = "radius of the waves of the tail" },
     },
     make = function(head, v, o)
-        local style, hair, tie = ponytail.grow(head,
+        local style, hair, tie = ponytails.grow(head,
             { height = v.height, tightness = v.tightness, length = v.length, fullness = v.fullness,
                 lift = 0.024, seed = v.seed },
             { scalp = o.scalp, resolution = o.resolution }, { count = o.count })

@@ -4,23 +4,6 @@
 local lissom = require "lissom"
 local styling = require "styling"
 
--- Streams of the fin: from the middle and both of its edges up into one plane, in even steps around the head;
--- across it in metres, as azimuths mean little near the crown.
-local function fin(style, width)
-    local function place(turn, lift, across)
-        local azimuth, elevation = turn > 90 and 180 or 0, turn > 90 and 180 - turn or turn
-        local p = styling.off(style:scalp(), azimuth, elevation, lift)
-        return { "at", 1000 * across * width, 1000 * p[2], 1000 * p[3] }
-    end
-    for turn = 36, 216, 12 do
-        local up = 0.06 * (90 - turn)
-        for _, edge in ipairs{ 0, 0.48 } do
-            styling.streams(style, { { place(turn, edge == 0 and 2 or -2, edge),
-                place(turn + up, 40, 0.75 * edge), place(turn + 1.5 * up, 110, 0.5 * edge), stop = false } })
-        end
-    end
-end
-
 return styling.preset(..., {
     name = "mohawk",
     edge = "short",
@@ -44,7 +27,7 @@ return styling.preset(..., {
         hair:set_colors{ color = { 0.04, 0.028, 0.02 } }
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.12, -0.2, -0.24 }, max = { 0.12, 0.28, 0.22 } } })
-        fin(style, v.width)
+        styling.fin(style, v.width)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local low = math.abs(azimuth) > 90 and 1 - styling.smooth(-40, 70, elevation) or 0
             return v.height * (1 - 0.78 * low)

@@ -2,7 +2,7 @@
 --
 --     lissom run scripts/presets/topknot.lua --radius 0.018 --tightness 0.6
 local hairdo = require "hairdo"
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local styling = require "styling"
 
 return styling.preset(..., {
@@ -19,14 +19,11 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style, hair, tie = ponytail.grow(head,
+        local style, hair, tie = ponytails.grow(head,
             { height = v.height, tightness = v.tightness, length = 0.05, lift = 0.018, seed = v.seed },
             { scalp = scalp, resolution = o.resolution }, { count = o.count })
-        local at = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
-        hair:smooth{ iterations = 3 }
-        hair:bun{ center = scalp:at(at), direction = scalp:normal_at(at), scalp = scalp, radius = v.radius,
-            tube = 1.15 * v.radius, lift = v.lift, turn = 280, locks = 5, reach = 2.2 * tie.radius,
-            loose = 0.03, seed = v.seed }
+        ponytails.wind(hair, scalp, tie, v.radius, { tube = 1.15 * v.radius, lift = v.lift, turn = 280,
+            locks = 5, loose = 0.03, seed = v.seed })
         hair:frizz{ amplitude = 0.001, wavelength = 0.03, flyaways = 0.03, flyaway = 5 }
         styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.001 }
         return style, hair, { color = "#5a3a22", unit = scalp:unit() }, { hairdo.ring(scalp, tie) }

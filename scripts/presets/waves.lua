@@ -22,14 +22,8 @@ return styling.preset(..., {
         local style = styling.long(head, o, styling.over_shoulders, parting)
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.225 + v.length, layer = 0.012,
             clearance = 0.004 }
-        hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
-        hair:cull{ mask = styling.over_face(scalp, hair) }
-        hair:cut{ hem = { { 0, -v.length - 0.01 } }, scalp = scalp }
-        hair:gather{ guides = v.locks, factor = 0.65, ramp = 0.2, spread = 0.006 }
-        styling.loose_waves(hair, scalp, { radius = v.radius, wavelength = v.wavelength, depth = 0.4,
-            tip = 0.9, seed = v.seed })
-        styling.ragged_hem(hair, scalp, { { 0, -v.length } }, 0.007, v.seed)
-        hair:clump{ clumps = 420, strength = 0.6, shape = 1.5, tip_spread = 0.002 }
+        styling.wavy(hair, scalp, v.length, { locks = v.locks, factor = 0.65, ragged = 0.007,
+            wave = { radius = v.radius, wavelength = v.wavelength, depth = 0.4, tip = 0.9, seed = v.seed } })
         styling.finish(hair, 0.00026, 0.0006):push_out{ head = style, clearance = 0.003 }
         return style, hair, { unit = scalp:unit() }
     end,

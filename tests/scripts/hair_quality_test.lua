@@ -1,7 +1,7 @@
 -- Hair stays outside of heads, on its side of a parting, and goes through the tie of a ponytail, on any head.
 local lissom = require "lissom"
 local models = require "models"
-local ponytail = require "presets.ponytail"
+local ponytails = require "ponytails"
 local strokes = require "strokes"
 
 local count = 2000
@@ -122,34 +122,34 @@ end
 
 on_heads("no hair hangs in front of a low tail by itself", function(head)
     for _, height in ipairs{ 0, 12 } do
-        local style, hair, tie = ponytail.grow(head, { height = height }, {}, { count = count })
+        local style, hair, tie = ponytails.grow(head, { height = height }, {}, { count = count })
         expect.truthy(widest_gap(style, hair, tie) < 0.004)
     end
 end)
 
 on_heads("a low ponytail leaves the ears free", function(head)
     for _, low in ipairs{ { height = -15, tightness = 0.2 }, { height = -10 } } do
-        local style, hair = ponytail.grow(head, low, {}, { count = count })
+        local style, hair = ponytails.grow(head, low, {}, { count = count })
         expect.truthy(over_ears(style, hair) < 0.003)
     end
 end)
 
 on_heads("high tails fall, and take the hair of the nape along", function(head)
-    local _, high, tail = ponytail.grow(head, { height = 50, tightness = 1 }, {}, { count = count })
+    local _, high, tail = ponytails.grow(head, { height = 50, tightness = 1 }, {}, { count = count })
     expect.truthy(#high:select{ group = "ponytail" } > 0.98 * #high)
     expect.truthy(tail.droop < 0.06)
 end)
 
 on_heads("hair goes through loose ties, too, and does not stop in front of them", function(head)
     local loose = { height = -5, side = 0.75, length = 0.25, tightness = 0 }
-    local style, hair = ponytail.grow(head, loose, {}, { count = count })
+    local style, hair = ponytails.grow(head, loose, {}, { count = count })
     expect.truthy(#hair:select{ group = "ponytail" } > 0.93 * #hair)
     expect_sound(style, hair)
 end)
 
 on_heads("ponytails of all kinds are sound", function(head)
     for _, setting in ipairs(settings) do
-        local style, hair = ponytail.grow(head, setting, {}, { count = count })
+        local style, hair = ponytails.grow(head, setting, {}, { count = count })
         expect.truthy(#hair:select{ group = "ponytail" } > 0.98 * #hair)
         expect_sound(style, hair)
     end

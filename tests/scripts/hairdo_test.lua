@@ -21,7 +21,8 @@ test("a head whose unit nobody can guess gets it from the parameters, and nothin
 end)
 
 local presets = { "afro", "bob", "braid", "bun", "buzz", "centre_part", "cornrows", "crop", "crown_braid",
-    "half_up", "high_ponytail", "locs", "long_straight", "messy", "mohawk", "pigtails", "pixie", "ringlets",
+    "half_up", "high_ponytail", "locs", "long_straight", "messy", "mohawk", "pigtails", "pixie", "ponytail",
+    "ringlets",
     "side_part", "slick_back", "spiky", "topknot", "two_braids", "undercut", "waves" }
 
 for _, name in ipairs(presets) do
@@ -433,8 +434,7 @@ test("options of operators have their ranges and values, for panels", function()
 end)
 
 test("a braid and a bun of a groom follow the ponytail of its style as it is drawn", function()
-    local preset = require "presets.ponytail"
-    local style = preset.grow(head, {}, { resolution = 8000 }, { count = 10 })
+    local style = require("ponytails").style(head, {}, { resolution = 8000 })
     local function hair_of(operator)
         return lissom.groom{ head = head, layers = { { style = style, collide = false,
             grow = { count = 800, length = 0.3 }, operators = { operator } } } }:hair()
