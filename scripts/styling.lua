@@ -160,7 +160,7 @@ function styling.comb(style, list)
 end
 
 --- Adds streams that stand off the head all around, `length` millimetres long; their ends are `rise` degrees
--- higher than their roots.
+-- higher than their roots. With a rise they hang down at the nape, where locks would be seen from their ends.
 function styling.radial(style, length, rise)
     local function at(azimuth, elevation, lift)
         local p = styling.off(style:scalp(), azimuth, elevation, lift)
@@ -172,7 +172,7 @@ function styling.radial(style, length, rise)
     for azimuth = 120, 180, 30 do places[#places + 1] = { azimuth, -22 } end
     local routes = {}
     for i, p in ipairs(places) do
-        local up = rise or 0
+        local up = rise and rise - (rise + 24) * (1 - styling.smooth(-30, 50, p[2])) or 0
         routes[i] = { at(p[1], p[2], 2), at(p[1], p[2] + up / 2, length / 2), at(p[1], p[2] + up, length) }
     end
     styling.streams(style, routes)
@@ -408,6 +408,16 @@ styling.softness = 0.03
 local hairline = { { 0, 34 }, { 20, 35 }, { 38, 34 }, { 52, 26 }, { 62, 11 }, { 70, -4 }, { 76, -14 },
     { 82, -17 }, { 86, -13 }, { 90, -5 }, { 95, -2 }, { 101, -3 }, { 106, -10 }, { 110, -20 }, { 114, -30 },
     { 121, -40 }, { 135, -47 }, { 155, -51 }, { 180, -54 } }
+
+--- Elevation of the hairline of presets at an azimuth, in degrees.
+function styling.hairline_at(azimuth)
+    local a = math.abs((azimuth + 180) % 360 - 180)
+    for i = 2, #hairline do
+        local from, to = hairline[i - 1], hairline[i]
+        if a <= to[1] then return from[2] + (to[2] - from[2]) * (a - from[1]) / (to[1] - from[1]) end
+    end
+    return hairline[#hairline][2]
+end
 
 --- The scalp of a head for a preset: its hair thins out at a hairline that wanders as a grown one does. The
 -- `unit` in metres may be absent.

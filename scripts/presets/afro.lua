@@ -47,7 +47,7 @@ return styling.preset(..., {
             variation = 0.35, points_per_turn = 9, keep_length = false, seed = v.seed }
         hair:frizz{ amplitude = v.frizz, wavelength = 0.02, shape = 0.6, keep_length = false,
             flyaways = 0.02, flyaway = 1.6 }
-        hair:cut{ ellipsoid = { center = { 0, 0.04, -0.015 }, radii = { 0.043 + h, 0.052 + h, 0.062 + h } },
+        hair:cut{ ellipsoid = { center = { 0, 0.04, -0.015 }, radii = { 0.043 + h, 0.042 + h, 0.062 + h } },
             scalp = scalp, jitter = v.ragged }
         hair:push_out{ head = style }
         styling.thin_out(styling.set_width(hair, 0.0002))

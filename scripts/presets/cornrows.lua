@@ -11,9 +11,9 @@ return styling.preset(..., {
         rows = { type = "integer", default = 13, min = 5, max = 17, help = "number of braids" },
         tails = { type = "number", default = 0.108, min = 0.02, max = 0.25, unit = "metres",
             help = "length of the braids below the nape" },
-        gap = { type = "number", default = 0.16, min = 0, max = 0.5,
+        gap = { type = "number", default = 0.3, min = 0, max = 0.5,
             help = "part of the scalp between them" },
-        thickness = { type = "number", default = 1.08, min = 0.6, max = 1.3,
+        thickness = { type = "number", default = 0.82, min = 0.6, max = 1.3,
             help = "of a braid as a part of the usual" },
     },
     make = function(head, v, o)

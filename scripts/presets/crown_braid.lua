@@ -9,16 +9,15 @@ local function ring_at(azimuth, height)
     return height - 24 * styling.smooth(20, 110, math.abs((azimuth + 180) % 360 - 180))
 end
 
--- Streams from the crown and from the hairline up to the ring.
+-- Streams from the crown and from the hairline up to the ring, close behind the ears, where it falls.
 local function streams(style, height)
     local routes = {}
-    for azimuth = -150, 180, 30 do
-        local ring, a = ring_at(azimuth, height), math.abs(azimuth)
+    for azimuth = -165, 180, 15 do
+        local ring, low = ring_at(azimuth, height), styling.hairline_at(azimuth) + 3
         routes[#routes + 1] = { { azimuth, 80, 4 }, { azimuth, (80 + ring) / 2, 8 }, { azimuth, ring + 3, 9 },
             stop = 0.02, one = true }
-        local low = a < 45 and 35 or a < 70 and 14 or a < 125 and 10 or -38
         if ring - low > 6 then
-            routes[#routes + 1] = { { azimuth, low, 3 }, { azimuth, (low + ring) / 2, 7 },
+            routes[#routes + 1] = { { azimuth, low, 2 }, { azimuth, 0.6 * low + 0.4 * ring, 5 },
                 { azimuth, ring - 3, 9 }, stop = 0.02, one = true }
         end
     end

@@ -10,7 +10,7 @@ return styling.preset(..., {
     schema = {
         height = { type = "number", default = 50, min = 32, max = 50, unit = "degrees",
             help = "elevation of the tie" },
-        length = { type = "number", default = 0.28, min = 0.1, max = 0.5, unit = "metres",
+        length = { type = "number", default = 0.34, min = 0.1, max = 0.5, unit = "metres",
             help = "of the tail" },
         fullness = { type = "number", default = 1.4, min = 0, max = 2, help = "how much the tail swells" },
         tightness = { type = "number", default = 0.85, min = 0, max = 1,

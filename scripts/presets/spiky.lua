@@ -29,7 +29,7 @@ return styling.preset(..., {
         hair:resample{ count = 14 }
         hair:noise{ amplitude = v.disorder, across = 0.03, along = 0.08, seed = 2 + v.seed }
         hair:clump{ clumps = v.spikes, strength = v.sharp, variation = 0.15, shape = 0.9,
-            tip_spread = 0.0012, offset = 0.006, mask = styling.less_below(scalp, 0.4, -25, 30) }
+            tip_spread = 0.0012, offset = 0.006, mask = styling.less_below(scalp, 0.3, -20, 35) }
         hair:push_out{ head = style }
         return style, styling.finish(hair, 0.00028, 0.001),
             { color = "#b88a4a", scalp_tint = 0.85, unit = scalp:unit() }
