@@ -721,6 +721,23 @@ test('without WebGL 2 scripts run, and the page says why there is no picture', a
     await page.close();
 });
 
+test('a browser that is too old for the library says which ones are not, and keeps the script', async () => {
+    const context = await browser.createBrowserContext(), page = await context.newPage();
+    await page.evaluateOnNewDocument(() => {
+        window.WebAssembly.validate = () => false;
+        window.Worker = class {
+            postMessage() { setTimeout(() => this.onmessage({ data: { kind: 'failed', message: 'CompileError: invalid opcode' } })); }
+            terminate() {}
+        };
+    });
+    await page.goto(address);
+    await page.waitForFunction(() => /lacks exceptions.*Firefox 100/.test(document.getElementById('console').textContent), { timeout: patience });
+    assert.match(await page.evaluate(() => window.lissomEditor.text), /lissom/);
+    await page.click('#share');
+    await page.waitForFunction(() => window.lissomLink, { timeout: patience });
+    await page.close();
+});
+
 test('examples run', async () => {
     const examples = JSON.parse(fs.readFileSync(path.join(folder, 'examples.json'), 'utf8'));
     for (const { name } of options.includes('--all') ? examples : examples.slice(0, 4)) {

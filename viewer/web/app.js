@@ -78,9 +78,16 @@ function failedWorker(message) {
     busy(false);
     running = 0;
     print(`The library ended: ${message}`, 'error');
-    const old = !('WebAssembly' in window) || !WebAssembly.validate(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11]));
-    if (old) print('This browser lacks exceptions of WebAssembly: Chrome 95, Firefox 100, Safari 15.2 and later have them.', 'muted');
-    else startWorker();
+    if (hasWebAssembly()) startWorker();
+    else print('This browser lacks exceptions or SIMD of WebAssembly: Chrome 95, Firefox 100, Safari 16.4 and later have them. The script stays here; Share gives a link to it for another browser.', 'muted');
+}
+
+// Whether it has what the library is made of: the least module with a catch, and that with a vector.
+function hasWebAssembly() {
+    const begin = [0, 97, 115, 109, 1, 0, 0, 0, 1];
+    const caught = [4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11];
+    const vector = [5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+    return 'WebAssembly' in window && [caught, vector].every(rest => WebAssembly.validate(new Uint8Array([...begin, ...rest])));
 }
 
 function ask(message, transfer = []) {
