@@ -45,40 +45,4 @@ class SkinSurface {
     SpatialTree tree_;
 };
 
-/// Points that lie near the skin at rest, with the places of it below them.
-class SkinBinding {
-  public:
-    struct SkinPlace {
-        Index point = 0;
-        std::uint32_t vertices[3] = {};
-        float weights[3] = {};
-        /// Height at rest.
-        float height = 0.0f;
-    };
-
-    SkinBinding() = default;
-    /// Binds points less than `reach` over `skin`, which is at rest.
-    SkinBinding(const Strands& strands, const SkinSurface& skin, const HeadMotion& head,
-                double reach, const Context& context);
-
-    /// Returns the places of the points of a strand, in their order along it.
-    std::span<const SkinPlace> of(Index strand) const {
-        if (first_.empty()) return {};
-        return std::span(places_).subspan(first_[at(strand)],
-                                          first_[at(strand) + 1] - first_[at(strand)]);
-    }
-    /// Returns the height of a point over the place, as `head` is now, and the same to about 1e-6
-    /// metres.
-    static SkinHeight height(const SkinPlace& place, const Vec3& point, const HeadMotion& head);
-    static float quick_height(const SkinPlace& place, const float* point, const HeadMotion& head);
-    std::size_t memory_bytes() const {
-        return first_.size() * sizeof(std::size_t) + places_.size() * sizeof(SkinPlace);
-    }
-
-  private:
-    std::vector<std::size_t> first_;
-    std::vector<SkinPlace> places_;
-    MemoryCharge charge_;
-};
-
 }  // namespace lissom

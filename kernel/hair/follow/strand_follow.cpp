@@ -9,6 +9,7 @@
 #include "kernel/core/error.h"
 #include "kernel/hair/follow/head_motion.h"
 #include "kernel/hair/follow/motion_field.h"
+#include "kernel/hair/follow/skin_binding.h"
 #include "kernel/hair/follow/skin_contact.h"
 #include "kernel/hair/follow/strand_lift.h"
 #include "kernel/hair/follow/strand_paths.h"
@@ -128,7 +129,8 @@ class StrandFollower::Prepared {
         if (options.collision == FollowCollision::none || strands.empty()) return;
         skin_.emplace(head.rest(), triangles, head.topology(), head.outward(), context);
         if (options.collision == FollowCollision::near) {
-            binding_ = SkinBinding(strands, *skin_, head, kBindReach, context);
+            const SkinBinding::Options bind{kBindReach, options.clearance};
+            binding_ = SkinBinding(strands, paths, *skin_, head, bind, context);
         }
     }
 
@@ -145,7 +147,14 @@ class StrandFollower::Prepared {
                 paths.move(g, head, field, points, room);
                 if (options.collision == FollowCollision::none) continue;
                 const auto [first, last] = paths.group(g);
-                for (std::size_t i = first; i < last; ++i) lift(i, points, moved);
+                for (std::size_t i = first; i < last; ++i) {
+                    if (moved) {
+                        lift(i, points, *moved);
+                    } else {
+                        binding_.lift(i, points.data() + paths.made(i), count_of(paths.arcs(i)),
+                                      head);
+                    }
+                }
             }
         });
     }
@@ -165,20 +174,13 @@ class StrandFollower::Prepared {
     std::vector<Vec3> rest_positions;
 
   private:
-    void lift(std::size_t place, std::span<float> points,
-              const std::optional<SkinSurface>& moved) const {
+    // Out of all skin.
+    void lift(std::size_t place, std::span<float> points, const SkinSurface& moved) const {
         const auto arcs = paths.arcs(place);
-        const Index s = paths.strand(place);
         if (!(arcs.back() > 0.0f)) return;
-        const StrandView rest = strands.strand(s);
-        const LiftedStrand strand{
-            rest, arcs, {points.data() + 3 * at(strands.first_point(s)), 3, rest.cols()}};
-        const StrandLift over(head, options.clearance);
-        if (moved) {
-            over.out_of(*moved, *skin_, strand);
-        } else {
-            over.over_places(binding_.of(s), strand);
-        }
+        const StrandView rest = strands.strand(paths.strand(place));
+        const LiftedStrand strand{rest, arcs, {points.data() + paths.made(place), 3, rest.cols()}};
+        StrandLift(head, options.clearance).out_of(moved, *skin_, strand);
     }
 
     /// The skin at rest.

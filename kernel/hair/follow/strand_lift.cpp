@@ -39,8 +39,12 @@ bool is_low(const std::optional<SkinHeight>& over, double floor) {
 
 }  // namespace
 
+double clearance_at(double clearance, float arc) {
+    return clearance * std::min(1.0, double{arc} / kLiftRamp);
+}
+
 double StrandLift::floor_at(float arc) const {
-    return head_.scale() * clearance_ * std::min(1.0, double{arc} / kLiftRamp);
+    return head_.scale() * clearance_at(clearance_, arc);
 }
 
 double StrandLift::rest_height(const SkinSurface& rest, const Vec3& point) const {
@@ -61,38 +65,6 @@ bool StrandLift::raise(LiftedStrand& strand, Index k, Vec3& point, double floor,
         point = before + raised_step(point - before, over->normal, floor - over->height);
     }
     return moved;
-}
-
-void StrandLift::over_places(std::span<const SkinBinding::SkinPlace> places,
-                             LiftedStrand strand) const {
-    const auto low = std::find_if(places.begin(), places.end(), [&](const auto& place) {
-        const double floor =
-            std::min(floor_at(strand.arcs[at(place.point)]), head_.scale() * double{place.height});
-        return SkinBinding::quick_height(place, strand.made.col(place.point).data(), head_) <
-               floor - kLiftSlack;
-    });
-    if (low == places.end()) return;
-    auto next = low;
-    Vec3 old = strand.made.col(low->point - 1).cast<double>();
-    bool pushed = false;
-    for (Index k = low->point; k < index_of(strand.made.cols()); ++k) {
-        const bool bound = next != places.end() && next->point == k;
-        if (!bound && !pushed && next == places.end()) return;
-        const Vec3 target = strand.made.col(k).cast<double>();
-        Vec3 point = pushed ? drawn_point(strand, k, (target - old).norm()) : target;
-        bool moved = false;
-        if (bound) {
-            const SkinBinding::SkinPlace& place = *next++;
-            const double floor =
-                std::min(floor_at(strand.arcs[at(k)]), head_.scale() * double{place.height});
-            moved = raise(strand, k, point, floor, [&](const Vec3& p) {
-                return std::optional(SkinBinding::height(place, p, head_));
-            });
-        }
-        old = target;
-        if (moved || pushed) strand.made.col(k) = point.cast<float>();
-        pushed = moved || (pushed && (point - target).norm() > kLiftSlack);
-    }
 }
 
 // Moves a point so that the middle of the segment before it is not deeper inside than at rest.

@@ -19,13 +19,15 @@ struct LiftedStrand {
     Eigen::Map<Eigen::Matrix3Xf> made;
 };
 
+/// Returns the metres that a point stays off the skin at rest, at a length from its root: 0 there,
+/// `clearance` from 10 mm on.
+double clearance_at(double clearance, float arc);
+
 class StrandLift {
   public:
     /// `clearance` is in metres at rest.
     StrandLift(const HeadMotion& head, double clearance) : head_(head), clearance_(clearance) {}
 
-    /// Keeps points over the places that they are bound to.
-    void over_places(std::span<const SkinBinding::SkinPlace> places, LiftedStrand strand) const;
     /// Keeps all points, and the middles between them, out of the moved skin.
     void out_of(const SkinSurface& moved, const SkinSurface& rest, LiftedStrand strand) const;
 

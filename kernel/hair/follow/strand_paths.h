@@ -38,6 +38,8 @@ class StrandPaths {
         return {group.first, group.first + group.count};
     }
     Index strand(std::size_t place) const { return order_[place]; }
+    /// Returns the place of its coordinates among those of all strands.
+    std::size_t made(std::size_t place) const { return made_[place]; }
     /// Lengths from the root to each point at rest; its last is 0 if the strand has no length or is
     /// not finite.
     std::span<const float> arcs(std::size_t place) const {
