@@ -13,7 +13,7 @@ constexpr double kFieldStep = 0.02;
 constexpr double kMostNodes = 200000.0;
 // Square metres that are added to squares of distances.
 constexpr double kNearest = 1e-4;
-constexpr Index kFieldRows = 64;
+constexpr Index kFieldRows = 128;
 
 Box box_of(std::span<const float> points) {
     Box box;

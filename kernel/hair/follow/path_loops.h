@@ -7,7 +7,7 @@
 namespace lissom {
 
 /// Strands that move side by side.
-inline constexpr int kPathLanes = 8;
+inline constexpr int kPathLanes = 16;
 
 /// A point of each strand, and its length from the root; a strand with fewer points has its last
 /// one again.
@@ -21,9 +21,19 @@ struct PathRange {
     bool in_ramp = false;
 };
 
-/// Strands of a block: their number, rows, and for each the number of its points, its length, and
-/// where its coordinates begin among all.
+/// Points of a row that are bound to the skin: corners of the triangle below each and their
+/// weights, and the least height over it. Lanes without one have weights and a floor that never
+/// count.
+struct PathContact {
+    int row = 0;
+    std::uint32_t vertices[3][kPathLanes] = {};
+    float weights[3][kPathLanes] = {}, floor[kPathLanes] = {};
+};
+
+/// Strands of a block: the place of the first, their number, rows, and for each the number of its
+/// points, its length, and where its coordinates begin among all.
 struct PathStrands {
+    std::size_t place = 0;
     int count = 0, rows = 0;
     int points[kPathLanes] = {};
     float total[kPathLanes] = {};
@@ -45,15 +55,25 @@ struct PathBlock {
     float per_ramp = 0.0f;
     /// Factor of lengths.
     float scale = 1.0f;
+    /// Contacts by their rows, and eight numbers of each vertex of the skin: its place, a fourth
+    /// number, its normal, and a fourth number.
+    const PathContact* contacts = nullptr;
+    int contact_count = 0;
+    const float* skin = nullptr;
     /// The moved roots, x y z.
     float roots[3][kPathLanes] = {};
     /// Coordinates of all strands.
     float* made = nullptr;
 };
 
-/// Moves a block; `steps` is room for as many rows. Segments change in parts that grow with the
-/// square of the place along the strand, so that it has its length and hair near the head stays
-/// where the head takes it. The same to the bit on every processor.
+/// Moves a block and writes its points; `steps` is room for as many rows. Segments change in parts
+/// that grow with the square of the place along the strand, so that it has its length and hair near
+/// the head stays where the head takes it. Points that are bound stay over the skin; segments keep
+/// their lengths. The same to the bit on every processor.
 void move_block(const PathBlock& block, PathRow* steps);
+
+/// The same without writing them; for processors with these instructions.
+void move_lanes_avx2(const PathBlock& block, PathRow* steps);
+void move_lanes_avx512(const PathBlock& block, PathRow* steps);
 
 }  // namespace lissom

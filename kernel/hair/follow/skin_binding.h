@@ -2,21 +2,21 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/follow/head_motion.h"
+#include "kernel/hair/follow/path_loops.h"
 #include "kernel/hair/follow/skin_contact.h"
 #include "kernel/hair/follow/strand_paths.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {
 
-/// Points that lie near the skin at rest, with the places of it below them, in the order of the
-/// places that strands have among their paths.
+/// Points that lie near the skin at rest, with the places of it below them, by the blocks of their
+/// paths.
 class SkinBinding {
   public:
     struct Options {
@@ -27,42 +27,22 @@ class SkinBinding {
     };
 
     SkinBinding() = default;
-    /// `skin` is at rest. Errors: memory_limit.
+    /// `skin` is at rest, and so is `head`. Errors: memory_limit.
     SkinBinding(const Strands& strands, const StrandPaths& paths, const SkinSurface& skin,
                 const HeadMotion& head, const Options& options, const Context& context);
 
-    /// Moves points of the strand at a place that come too near to the skin out of it, as `head` is
-    /// now, and what hangs on them: `made` has x y z of its `count` points. Lengths of segments
-    /// stay.
-    void lift(std::size_t place, float* made, Index count, const HeadMotion& head) const;
-
+    /// Returns the contacts of a block, by their rows.
+    std::span<const PathContact> of(std::size_t block) const {
+        if (first_.empty()) return {};
+        return std::span(contacts_).subspan(first_[block], first_[block + 1] - first_[block]);
+    }
     std::size_t memory_bytes() const {
-        return first_.size() * sizeof(std::size_t) + bound_.size() * sizeof(BoundPoint);
+        return first_.size() * sizeof(std::size_t) + contacts_.size() * sizeof(PathContact);
     }
 
   private:
-    /// A point with the triangle below it, and the least height that it may have.
-    struct BoundPoint {
-        Index point = 0;
-        std::uint32_t vertices[3] = {};
-        float weights[3] = {};
-        float floor = 0.0f;
-    };
-    /// Height over the skin and the unit normal there.
-    struct Contact {
-        float height = 0.0f;
-        Eigen::Array4f normal = Eigen::Array4f::Zero();
-    };
-
-    void bind(const StrandView& strand, std::span<const float> arcs, const SkinSurface& skin,
-              const HeadMotion& head, const Options& options, std::vector<BoundPoint>& list) const;
-    static Contact contact(const BoundPoint& bound, const Eigen::Array4f& point,
-                           const HeadMotion& head);
-    static bool raise(const BoundPoint& bound, const Eigen::Array4f& before, const HeadMotion& head,
-                      Eigen::Array4f& point);
-
     std::vector<std::size_t> first_;
-    std::vector<BoundPoint> bound_;
+    std::vector<PathContact> contacts_;
     MemoryCharge charge_;
 };
 

@@ -144,17 +144,10 @@ class StrandFollower::Prepared {
         context.parallel_for(0, paths.group_count(), kFollowGrain, [&](Index begin, Index end) {
             StrandPaths::Room room;
             for (Index g = begin; g < end; ++g) {
-                paths.move(g, head, field, points, room);
-                if (options.collision == FollowCollision::none) continue;
+                paths.move(g, head, field, binding_, points, room);
+                if (!moved) continue;
                 const auto [first, last] = paths.group(g);
-                for (std::size_t i = first; i < last; ++i) {
-                    if (moved) {
-                        lift(i, points, *moved);
-                    } else {
-                        binding_.lift(i, points.data() + paths.made(i), count_of(paths.arcs(i)),
-                                      head);
-                    }
-                }
+                for (std::size_t i = first; i < last; ++i) lift(i, points, *moved);
             }
         });
     }

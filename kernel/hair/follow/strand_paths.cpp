@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "kernel/core/large_pages.h"
+#include "kernel/hair/follow/skin_binding.h"
 #include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
@@ -128,6 +130,7 @@ void StrandPaths::divide() {
 // Adds rows of points, the lanes without a strand as the first.
 void StrandPaths::add_block(std::size_t first, std::size_t count, const Group& group) {
     PathStrands block;
+    block.place = first;
     block.count = static_cast<int>(count);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t place = first + (lane < count ? lane : 0);
@@ -227,14 +230,14 @@ Eigen::Vector3f StrandPaths::moved_root(std::size_t place, const Eigen::Matrix3f
 }
 
 void StrandPaths::move(Index g, const HeadMotion& head, const MotionField& field,
-                       std::span<float> points, Room& room) const {
+                       const SkinBinding& binding, std::span<float> points, Room& room) const {
     const Group& group = groups_[at(g)];
     make_room(room.knots, group.knots);
     for (std::size_t j = 0; j < group.knots && rest(group.first).col(0).allFinite(); ++j) {
         room.knots[j] = field.motion_at(knots_[group.first_knot + j].data());
     }
     const Eigen::Matrix3f turn = turn_of(group.first, head);
-    if (is_whole(group.first)) return move_whole(group, turn, head, field, points, room);
+    if (is_whole(group.first)) return move_whole(group, turn, head, field, binding, points, room);
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
         move_broken(i, turn, head, field, points, room);
     }
@@ -242,7 +245,8 @@ void StrandPaths::move(Index g, const HeadMotion& head, const MotionField& field
 
 void StrandPaths::move_whole(const Group& group, const Eigen::Matrix3f& turn,
                              const HeadMotion& head, const MotionField& field,
-                             std::span<float> points, Room& room) const {
+                             const SkinBinding& binding, std::span<float> points,
+                             Room& room) const {
     PathBlock block;
     block.knots = room.knots.front().data();
     block.per_metre = group.per_metre;
@@ -252,6 +256,7 @@ void StrandPaths::move_whole(const Group& group, const Eigen::Matrix3f& turn,
     std::copy_n(field.origin().data(), 3, block.origin);
     std::copy_n(turn.data(), 9, block.turn);
     block.made = points.data();
+    block.skin = head.skin().front().place.data();
     block.strands = &blocks_[group.first_block];
     block.rows = &rows_[group.first_row];
     block.ranges = &ranges_[group.first_row];
@@ -261,6 +266,9 @@ void StrandPaths::move_whole(const Group& group, const Eigen::Matrix3f& turn,
             const Eigen::Vector3f root = moved_root(place, turn, head, field, room);
             for (int c = 0; c < 3; ++c) block.roots[c][lane] = root[c];
         }
+        const auto contacts = binding.of(at(index_of(block.strands - blocks_.data())));
+        block.contacts = contacts.data();
+        block.contact_count = count_of(contacts);
         make_room(room.steps, at(block.strands->rows));
         move_block(block, room.steps.data());
         block.rows += block.strands->rows;

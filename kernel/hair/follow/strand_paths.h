@@ -17,6 +17,8 @@
 
 namespace lissom {
 
+class SkinBinding;
+
 /// Strands in groups that lie beside each other: the motions of a group are found once, at knots
 /// along its first strand, and each of its points moves by those next to it.
 class StrandPaths {
@@ -46,15 +48,23 @@ class StrandPaths {
         return std::span(arcs_).subspan(first_[place], first_[place + 1] - first_[place]);
     }
 
+    /// Blocks of strands that move side by side: the places of one, and the number of its rows.
+    std::size_t block_count() const { return blocks_.size(); }
+    std::pair<std::size_t, std::size_t> block(std::size_t b) const {
+        return {blocks_[b].place, blocks_[b].place + at(blocks_[b].count)};
+    }
+    int row_count(std::size_t block) const { return blocks_[block].rows; }
+
     /// Room for one thread.
     struct Room {
         std::vector<MotionField::Node, Eigen::aligned_allocator<MotionField::Node>> knots;
         std::vector<PathRow> steps;
     };
-    /// Writes the points of a group's strands: with the length at rest times the factor of `head`.
-    /// Strands without length, or that are not finite, keep their shape, and their root follows.
+    /// Writes the points of a group's strands: with the length at rest times the factor of `head`,
+    /// and those that are bound over the skin. Strands without length, or that are not finite, keep
+    /// their shape, and their root follows.
     void move(Index group, const HeadMotion& head, const MotionField& field,
-              std::span<float> points, Room& room) const;
+              const SkinBinding& binding, std::span<float> points, Room& room) const;
 
     std::size_t memory_bytes() const;
 
@@ -91,7 +101,8 @@ class StrandPaths {
                                const Room& room) const;
     void add_block(std::size_t first, std::size_t count, const Group& group);
     void move_whole(const Group& group, const Eigen::Matrix3f& turn, const HeadMotion& head,
-                    const MotionField& field, std::span<float> points, Room& room) const;
+                    const MotionField& field, const SkinBinding& binding, std::span<float> points,
+                    Room& room) const;
     void move_broken(std::size_t place, const Eigen::Matrix3f& turn, const HeadMotion& head,
                      const MotionField& field, std::span<float> points, const Room& room) const;
 
