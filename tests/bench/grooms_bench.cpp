@@ -10,6 +10,7 @@
 
 #include "bindings/engine/lissom_hair.h"
 #include "kernel/core/error.h"
+#include "kernel/core/large_pages.h"
 #include "kernel/hair/dynamics/hair_dynamics.h"
 #include "kernel/hair/follow/strand_follow.h"
 #include "kernel/hair/follow/strand_roots.h"
@@ -105,7 +106,10 @@ Mesh leaning(Mesh head) {
 void run_follow(Report& report, const Mesh& head, const Strands& hair, const Context& context) {
     const std::string name = "follow the head";
     const Mesh bent = leaning(head);
-    std::vector<float> out(hair.points().size());
+    std::vector<float> out;
+    out.reserve(hair.points().size());
+    prefer_large_pages(out);
+    out.resize(hair.points().size());
     const auto write = [&] {
         return seconds([&] {
             context.parallel_for(0, kStrands, 512, [&](Index begin, Index end) {

@@ -117,14 +117,30 @@ void StrandPaths::divide() {
             add_group(i);
         }
     }
+    reserve_rows();
     for (Group& group : groups_) {
         group.first_row = rows_.size();
         group.first_block = blocks_.size();
-        if (!is_whole(group.first)) continue;
+        if (!group.is_whole) continue;
         for (std::size_t i = 0; i < group.count; i += kLanes) {
             add_block(group.first + i, std::min(kLanes, group.count - i), group);
         }
     }
+}
+
+void StrandPaths::reserve_rows() {
+    std::size_t count = 0;
+    for (const Group& group : groups_) {
+        for (std::size_t i = 0; i < group.count && group.is_whole; i += kLanes) {
+            std::size_t rows = 0;
+            for (std::size_t k = i; k < std::min(i + kLanes, group.count); ++k) {
+                rows = std::max(rows, arcs(group.first + k).size());
+            }
+            count += rows;
+        }
+    }
+    rows_.reserve(count);
+    prefer_large_pages(rows_);
 }
 
 // Adds rows of points, the lanes without a strand as the first.
@@ -165,6 +181,8 @@ void StrandPaths::add_block(std::size_t first, std::size_t count, const Group& g
 
 void StrandPaths::add_group(std::size_t first) {
     Group group{.first = first, .count = 1, .first_knot = knots_.size()};
+    group.is_whole = is_whole(first);
+    group.has_root = rest(first).col(0).allFinite();
     const float length = arcs(first).back();
     group.knots =
         std::clamp(static_cast<std::size_t>(length / kKnotStep) + 2, std::size_t{2}, kMostKnots);
@@ -233,11 +251,11 @@ void StrandPaths::move(Index g, const HeadMotion& head, const MotionField& field
                        const SkinBinding& binding, std::span<float> points, Room& room) const {
     const Group& group = groups_[at(g)];
     make_room(room.knots, group.knots);
-    for (std::size_t j = 0; j < group.knots && rest(group.first).col(0).allFinite(); ++j) {
+    for (std::size_t j = 0; j < group.knots && group.has_root; ++j) {
         room.knots[j] = field.motion_at(knots_[group.first_knot + j].data());
     }
     const Eigen::Matrix3f turn = turn_of(group.first, head);
-    if (is_whole(group.first)) return move_whole(group, turn, head, field, binding, points, room);
+    if (group.is_whole) return move_whole(group, turn, head, field, binding, points, room);
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
         move_broken(i, turn, head, field, points, room);
     }

@@ -75,6 +75,8 @@ class StrandPaths {
         float per_metre = 0.0f;
         /// Its blocks of kPathLanes strands, and their rows; none if it is not whole.
         std::size_t first_block = 0, first_row = 0;
+        /// Whether its first strand has a length, and a finite root.
+        bool is_whole = false, has_root = false;
     };
 
     /// Place of a root on the head: vertices, kNoIndex for none, and weights; and the offset from
@@ -88,6 +90,7 @@ class StrandPaths {
     void copy(const Strands& strands, const Context& context);
     void root(const Strands& strands, std::span<const Triangle> roots, const HeadMotion& head);
     void divide();
+    void reserve_rows();
     void add_group(std::size_t first);
     bool joins(std::size_t place, const Group& group) const;
     bool is_whole(std::size_t place) const { return arcs(place).back() > 0.0f; }
