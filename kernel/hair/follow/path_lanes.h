@@ -183,11 +183,9 @@ class PathPart {
         EightFloats rows[kLanes];
         for (int i = 0; i < kLanes; ++i) {
             const int lane = first_ + i;
-            const auto corner = [&](int c) {
-                return load(block_.skin + 8 * std::size_t{contact.vertices[c][lane]});
-            };
-            rows[i] = contact.weights[0][lane] * corner(0) + contact.weights[1][lane] * corner(1) +
-                      contact.weights[2][lane] * corner(2);
+            rows[i] = contact.weights[0][lane] * corner(contact.vertices[0][lane]) +
+                      contact.weights[1][lane] * corner(contact.vertices[1][lane]) +
+                      contact.weights[2][lane] * corner(contact.vertices[2][lane]);
         }
         Floats columns[4];
         transpose(rows, 0, columns);
@@ -196,6 +194,11 @@ class PathPart {
         normal = {columns[0], columns[1], columns[2]};
         const Floats size = root(dot(normal, normal));
         normal = scaled(normal, choose(size > all(0.0f), all(1.0f) / size, all(0.0f)));
+    }
+
+    // The eight numbers of a vertex of the skin.
+    LISSOM_INLINE EightFloats corner(std::uint32_t vertex) const {
+        return load(block_.skin + 8 * std::size_t{vertex});
     }
 
     LISSOM_INLINE Floats3 roots() const {
@@ -218,7 +221,7 @@ class PathPart {
     const PathStrands& strands_;
     PathRow* steps_;
     int first_;
-    Floats have_, weighted_, base_, slope_;
+    Floats have_{}, weighted_{}, base_{}, slope_{};
 };
 
 inline void move_lanes(const PathBlock& block, PathRow* steps) {

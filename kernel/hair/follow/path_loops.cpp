@@ -68,7 +68,7 @@ void write_points(const PathBlock& block, const PathRow* rows) {
     }
 }
 
-// What is to be written comes from memory while the block is moved.
+// Fetches the memory of results while the block is moved.
 LISSOM_INLINE void fetch_results([[maybe_unused]] const PathBlock& block) {
 #if defined(__GNUC__)
     constexpr int kLineNumbers = 16;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/core/index.h"
 #include "kernel/hair/follow/head_motion.h"
 #include "kernel/hair/follow/path_loops.h"
 #include "kernel/hair/follow/skin_contact.h"

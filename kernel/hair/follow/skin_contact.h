@@ -1,15 +1,11 @@
 /// Contact of moved hair with the skin; private to kernel/hair.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
-#include "kernel/core/index.h"
 #include "kernel/hair/follow/head_motion.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/measure/triangulation.h"
