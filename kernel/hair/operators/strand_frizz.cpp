@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/lanes.h"
 #include "kernel/hair/strands/strand_random.h"
 
 namespace lissom {
@@ -24,7 +26,7 @@ void require_frizz(const FrizzOptions& options) {
 }
 
 // The sine of 2 pi x to 1e-5 for x up to a thousand turns, in 32 bits: four at a time.
-inline float sine_of_few_turns(float x) {
+LISSOM_INLINE float sine_of_few_turns(float x) {
     constexpr float kRound = 12582912.0f;
     x -= (x + kRound) - kRound;
     const float folded = (x < 0.0f ? -0.5f : 0.5f) - x;
@@ -32,6 +34,40 @@ inline float sine_of_few_turns(float x) {
     constexpr auto kTurn = static_cast<float>(2.0 * kPi);
     const float y = kTurn * x, q = y * y;
     return y * (1.0f + q * (-1.0f / 6 + q * (1.0f / 120 + q * (-1.0f / 5040 + q / 362880))));
+}
+
+// Two waves: turns a metre, and phases in turns.
+struct TwoWaves {
+    float short_frequency, long_frequency, short_phase, long_phase;
+};
+
+LISSOM_INLINE void sum_waves(const TwoWaves& w, std::size_t count, const float* arcs, float* sums) {
+    for (std::size_t k = 0; k < count; ++k) {
+        sums[k] = 0.5f * sine_of_few_turns(arcs[k] * w.short_frequency + w.short_phase) +
+                  sine_of_few_turns(arcs[k] * w.long_frequency + w.long_phase);
+    }
+}
+
+#ifdef LISSOM_HAS_AVX2_PATH
+// Without fused instructions, which round otherwise.
+__attribute__((target("avx2"))) void sum_waves_avx2(const TwoWaves& waves, std::size_t count,
+                                                    const float* arcs, float* sums) {
+    sum_waves(waves, count, arcs, sums);
+}
+__attribute__((target("avx2,avx512f,avx512bw,avx512dq,avx512vl"))) void sum_waves_avx512(
+    const TwoWaves& waves, std::size_t count, const float* arcs, float* sums) {
+    sum_waves(waves, count, arcs, sums);
+}
+#endif
+
+// Sums of the waves at each arc, in the widest vectors.
+void set_waves(const TwoWaves& waves, const std::vector<float>& arcs, std::vector<float>& sums) {
+    sums.resize(arcs.size());
+#ifdef LISSOM_HAS_AVX2_PATH
+    if (has_avx512()) return sum_waves_avx512(waves, arcs.size(), arcs.data(), sums.data());
+    if (has_avx2()) return sum_waves_avx2(waves, arcs.size(), arcs.data(), sums.data());
+#endif
+    sum_waves(waves, arcs.size(), arcs.data(), sums.data());
 }
 
 // Random numbers of one strand: waves a metre, and phases in turns.
@@ -55,15 +91,7 @@ struct Waves {
 
     // The wave along one axis at each arc.
     void set(std::size_t axis, const std::vector<float>& arcs, std::vector<float>& sums) const {
-        const float short_phase = phases[axis], long_phase = phases[axis + 3];
-        const float short_frequency = frequencies[0], long_frequency = frequencies[1];
-        sums.resize(arcs.size());
-        const float* const arc = arcs.data();
-        float* const sum = sums.data();
-        for (std::size_t k = 0; k < arcs.size(); ++k) {
-            sum[k] = 0.5f * sine_of_few_turns(arc[k] * short_frequency + short_phase) +
-                     sine_of_few_turns(arc[k] * long_frequency + long_phase);
-        }
+        set_waves({frequencies[0], frequencies[1], phases[axis], phases[axis + 3]}, arcs, sums);
     }
 };
 

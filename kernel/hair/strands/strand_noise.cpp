@@ -27,27 +27,34 @@ float fade_curve(float x) {
     return x * x * x * (x * (x * 6.0f - 15.0f) + 10.0f);
 }
 
-// Component of one of the twelve gradients from the middle of a cube to its edges.
-float gradient(std::uint64_t bits, int axis) {
-    const auto edge = static_cast<unsigned>(bits % 12);
-    const float a = (edge & 1u) != 0 ? 1.0f : -1.0f, b = (edge & 2u) != 0 ? 1.0f : -1.0f;
-    const int first = edge < 8 ? 0 : 1, second = edge < 4 ? 1 : 2;
-    return axis == first ? a : axis == second ? b : 0.0f;
-}
+using Gradient = std::array<float, 3>;
 
-std::uint64_t corner_bits(const std::array<std::int64_t, 3>& cell, unsigned corner,
-                          std::uint64_t seed) {
-    std::uint64_t bits = seed;
-    for (unsigned k = 0; k < 3; ++k) {
-        bits = mixed(bits ^ static_cast<std::uint64_t>(cell[k] + (corner >> k & 1u)));
+// The twelve gradients from the middle of a cube to its edges, spread.
+constexpr std::array<Gradient, 12> spread_gradients() {
+    std::array<Gradient, 12> list{};
+    for (unsigned edge = 0; edge < 12; ++edge) {
+        list[edge][edge < 8 ? 0 : 1] = (edge & 1u) != 0 ? kSpread : -kSpread;
+        list[edge][edge < 4 ? 1 : 2] = (edge & 2u) != 0 ? kSpread : -kSpread;
     }
-    return bits;
+    return list;
+}
+constexpr std::array<Gradient, 12> kGradients = spread_gradients();
+
+const Gradient& gradient(std::uint64_t bits) {
+    return kGradients[static_cast<unsigned>(bits & 0xffff) % 12u];
 }
 
 // A cell far outside the range of integers is as good as any other.
 std::int64_t cell_of(double floor) {
     constexpr double kFar = 0x1p52;
     return std::abs(floor) < kFar ? static_cast<std::int64_t>(floor) : 0;
+}
+
+// Without a call, as not every processor rounds by an instruction.
+double floor_of(double x) {
+    if (!(std::abs(x) < 0x1p52)) return std::floor(x);
+    const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+    return whole > x ? whole - 1.0 : whole;
 }
 
 // Noise at places one after the other: keeps the gradients of the cell of the last.
@@ -59,7 +66,7 @@ class NoiseSampler {
         std::array<std::int64_t, 3> cell{};
         std::array<float, 3> inside{}, fade{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const double floor = std::floor(place[index_of(k)]);
+            const double floor = floor_of(place[index_of(k)]);
             cell[k] = cell_of(floor);
             inside[k] = static_cast<float>(place[index_of(k)] - floor);
             fade[k] = fade_curve(inside[k]);
@@ -74,14 +81,26 @@ class NoiseSampler {
     void take(const std::array<std::int64_t, 3>& cell) {
         cell_ = cell;
         is_set_ = true;
-        for (unsigned corner = 0; corner < 8; ++corner) {
-            const std::uint64_t bits = corner_bits(cell, corner, seed_);
-            for (int axis = 0; axis < 3; ++axis) {
-                slopes_[3 * corner + static_cast<unsigned>(axis)] =
-                    kSpread * Lanes(gradient(bits & 0xffff, axis),
-                                    gradient(bits >> 16 & 0xffff, axis),
-                                    gradient(bits >> 32 & 0xffff, axis), 0.0f);
+        for (unsigned x = 0; x < 2; ++x) {
+            const std::uint64_t plane = side_bits(seed_, cell[0], x);
+            for (unsigned y = 0; y < 2; ++y) {
+                const std::uint64_t edge = side_bits(plane, cell[1], y);
+                for (unsigned z = 0; z < 2; ++z) {
+                    set_corner(x + 2 * y + 4 * z, side_bits(edge, cell[2], z));
+                }
             }
+        }
+    }
+
+    static std::uint64_t side_bits(std::uint64_t bits, std::int64_t cell, unsigned side) {
+        return mixed(bits ^ static_cast<std::uint64_t>(cell + side));
+    }
+
+    void set_corner(unsigned corner, std::uint64_t bits) {
+        const Gradient &a = gradient(bits), &b = gradient(bits >> 16), &c = gradient(bits >> 32);
+        Lanes* const slope = &slopes_[3 * std::size_t{corner}];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            slope[axis] = Lanes(a[axis], b[axis], c[axis], 0.0f);
         }
     }
 

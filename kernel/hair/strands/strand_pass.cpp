@@ -27,9 +27,8 @@ bool is_part(double x) {
 }
 
 bool all_finite(const float* values, std::size_t count) {
-    float sum = 0.0f;
-    for (std::size_t i = 0; i < count; ++i) sum += values[i] * 0.0f;
-    return sum == 0.0f;
+    const Eigen::Map<const Eigen::ArrayXf> all(values, index_of(count));
+    return (all * 0.0f).sum() == 0.0f;
 }
 
 // Lengths of segments, of each that before the point; 0 for the root.
@@ -141,6 +140,9 @@ bool StrandWork::take(Index strand, const float* old, float* made) {
 
 double StrandWork::profiled_weight(double t) const {
     const std::size_t last = profile_.size() - 1;
+    if (last == 1 && t >= 0.0 && t <= 1.0) {
+        return mask_ * (profile_[0] + t * (profile_[1] - profile_[0]));
+    }
     const double place = std::clamp(t, 0.0, 1.0) * double(last);
     const auto below = std::min(static_cast<std::size_t>(place), last);
     const double u = place - double(below), a = profile_[below];
@@ -202,12 +204,19 @@ void StrandWork::scale_segments(const float* lengths) {
         const float* const old = old_ + 3 * at(k);
         const float* const last = old - 3;
         // A segment without direction takes the old one.
-        const bool has_direction = scale < kLongest;
-        const float old_scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
+        if (!(scale < kLongest)) {
+            const float old_scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
+            for (std::size_t i = 0; i < 3; ++i) {
+                before[i] = p[i];
+                end[i] += old_scale * (old[i] - last[i]);
+                p[i] = old_[i] + end[i];
+            }
+            continue;
+        }
         for (std::size_t i = 0; i < 3; ++i) {
             const float segment = p[i] - before[i];
             before[i] = p[i];
-            end[i] += has_direction ? scale * segment : old_scale * (old[i] - last[i]);
+            end[i] += scale * segment;
             p[i] = old_[i] + end[i];
         }
     }
