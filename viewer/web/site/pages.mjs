@@ -46,7 +46,7 @@ const pictureOf = one => `<img src="pictures/${one.id}.png" alt="" loading="lazy
 
 export function cardHtml(one, levels) {
     return `<article class="card" id="${one.id}" data-level="${one.level}"><a class="picture" href="playground/#gallery/${one.id}" aria-label="Open ${escaped(one.title)} in the playground">${pictureOf(one)}</a>
-<h3>${escaped(one.title)}</h3><p>${escaped(one.text)}</p><footer><span class="level ${one.level}">${levels[one.level]}</span>${one.more ? `<a href="${one.more}">Reference</a>` : ''}<a href="playground/#gallery/${one.id}">Open in the playground</a></footer></article>`;
+<h3>${escaped(one.title)}</h3><p>${escaped(one.text).replace(/`([^`]+)`/g, '<code>$1</code>')}</p><footer><span class="level ${one.level}">${levels[one.level]}</span>${one.more ? `<a href="${one.more}">Reference</a>` : ''}<a href="playground/#gallery/${one.id}">Open in the playground</a></footer></article>`;
 }
 
 export function slideHtml(one) {
