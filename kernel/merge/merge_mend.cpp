@@ -45,16 +45,30 @@ bool relax_best(const PreparationReport& prepared, const Boundaries& boundaries,
 
 // Fairs the places at which a side crumpled, as far as that leaves fewer of them and no more
 // faults.
-void fair_best(const PreparationReport& prepared, const Boundaries& boundaries,
-               const MergeOptions& options, const Matching& matching, const DeformedSource& moved,
-               JudgedSides& best, const Context& context) {
-    for (Index rings = kMinSpotRings; rings <= kMaxSpotRings && is_crumpled(best.report); ++rings) {
+void fair_along(const PreparationReport& prepared, const Boundaries& boundaries,
+                const MergeOptions& options, const Matching& matching, const DeformedSource& moved,
+                bool creases, JudgedSides& best, const Context& context) {
+    for (SpotWay way{kMinSpotRings, creases}; way.rings <= kMaxSpotRings; ++way.rings) {
+        if (!is_crumpled(best.report)) return;
         JudgedSides tried = best;
-        if (!fair_sides(boundaries, options, rings, tried.merged, context)) break;
+        if (!fair_sides(boundaries, options, way, tried.merged, context)) return;
         tried.report =
             report_of(prepared, boundaries, options, matching, moved, tried.merged, context);
         if (is_fairer(tried.report, best.report)) best = std::move(tried);
     }
+}
+
+// The same. Creases of the source that keep a place crumpled, as all edges of a coarse one do, are
+// faired too.
+void fair_best(const PreparationReport& prepared, const Boundaries& boundaries,
+               const MergeOptions& options, const Matching& matching, const DeformedSource& moved,
+               JudgedSides& best, const Context& context) {
+    if (!is_crumpled(best.report)) return;
+    JudgedSides other = best;
+    fair_along(prepared, boundaries, options, matching, moved, true, best, context);
+    if (!is_crumpled(best.report)) return;
+    fair_along(prepared, boundaries, options, matching, moved, false, other, context);
+    if (is_fairer(other.report, best.report)) best = std::move(other);
 }
 
 // Says so in the report, and in all that are made of the same sides.

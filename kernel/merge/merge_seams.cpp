@@ -69,6 +69,8 @@ constexpr double kSmoothSeam = 5.0 * kDegree;
 
 // A seam whose greatest dihedral angle is above this shows.
 constexpr double kVisible = 20.0 * kPi / 180.0;
+// In radii of a seam: creases within it are faired if they keep a place crumpled.
+constexpr double kCreaseReach = 0.5;
 // A seam without a collar must be this much better than one with it.
 constexpr double kClearlyBetter = 0.9;
 
@@ -247,16 +249,20 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
     return true;
 }
 
-bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, Index rings,
+bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, const SpotWay& way,
                 MergedSides& merged, const Context& context) {
     const std::vector<Vec3> source =
         places_on_second(merged.sewn.map, boundaries.source.mesh, boundaries.target.vertex_count());
     const std::vector<Vec3> target = places_on_first(merged.sewn.map, boundaries.target);
     std::vector<Index> firm = creases_of(boundaries, true);
+    const Index of_target = boundaries.target.vertex_count();
+    if (!way.creases) std::erase_if(firm, [&](Index v) { return v >= of_target; });
     add_flat_faces(boundaries.target, firm);
-    if (!fair_spots(merged.sewn, {source, target, became_of(merged.sewn, firm), rings}, context)) {
-        return false;
-    }
+    firm = became_of(merged.sewn, firm);
+    SpotFairing how{source, target, std::move(firm), way.rings};
+    // Farther creases are the shape of the source, such as a muzzle above a neck.
+    if (!way.creases) how.reach = kCreaseReach;
+    if (!fair_spots(merged.sewn, how, context)) return false;
     if (options.find_intersections) find_crossings(boundaries, merged, context);
     return true;
 }

@@ -19,6 +19,7 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
+#include "kernel/merge/blend/fair_spots.h"
 #include "kernel/merge/blend/overlap_transition.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/automatic_keys.h"
@@ -255,9 +256,16 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
                  const MergeReport& report, Index rings, MergedSides& merged,
                  const Context& context);
 
-/// Fairs the places beside the seams at which a side crumpled (fair_spots), with `rings` around
-/// them. Returns false, and changes nothing, if there are none.
-bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, Index rings,
+/// A way to fair places: how many rings of vertices around one are bent anew, and whether creases
+/// of the source stay.
+struct SpotWay {
+    Index rings = kMinSpotRings;
+    bool creases = true;
+};
+
+/// Fairs the places beside the seams at which a side crumpled (fair_spots). Creases and flat faces
+/// of the targets stay. Returns false, and changes nothing, if there are no such places.
+bool fair_sides(const Boundaries& boundaries, const MergeOptions& options, const SpotWay& way,
                 MergedSides& merged, const Context& context);
 
 MergeReport report_of(const PreparationReport& prepared, const Boundaries& boundaries,
