@@ -17,8 +17,8 @@ if (!fs.existsSync(path.join(folder, 'lissom.wasm'))) skip('the playground was n
 const option = name => (options.includes(name) ? options[options.indexOf(name) + 1] : null);
 const size = { width: 640, height: 480 };
 
-// A pixel differs beyond the tolerance from all around it in the other picture; edges may. Hair is left out: the program
-// makes strands that are thinner than pixels transparent, the page draws them a quarter of a pixel wide at least.
+// A pixel differs beyond the tolerance from all around it in the other picture; edges may. Hair is left out: where the
+// program makes strands that are thinner than pixels transparent, the page leaves fragments of them out at random.
 const limits = { tolerance: 0.06, pixels: 0.004, connected: 30 };
 const ten = [
     { file: 'viewer/web/examples/bend.lua' },

@@ -24,6 +24,8 @@ function gridAround(points, cells) {
     return { step, origin: low.map(x => x - 2 * step), size: high.map((x, k) => Math.ceil((x - low[k]) / step) + 4) };
 }
 
+// Light is scattered on by strands more than they take away: the part of the area that they cover that counts as lost.
+const lostShare = 0.4;
 // Optical depth of a step through each cell.
 function depths(grid, points, offsets, widths) {
     const { size, origin, step } = grid, depth = new Float32Array(size[0] * size[1] * size[2]);
@@ -33,7 +35,7 @@ function depths(grid, points, offsets, widths) {
             const a = 3 * p, b = a + 3;
             const long = Math.hypot(points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]);
             const at = [0, 1, 2].map(k => Math.floor((0.5 * (points[a + k] + points[b + k]) - origin[k]) / step));
-            depth[at[0] + size[0] * (at[1] + size[1] * at[2])] += 0.785 * long * widths[p] / area;
+            depth[at[0] + size[0] * (at[1] + size[1] * at[2])] += lostShare * long * widths[p] / area;
         }
     }
     return depth.map(d => 1.4 * (1 - Math.exp(-d / 1.4)));

@@ -2,7 +2,7 @@
 import { cross, dot, length, lookAt, minus, perspective, plus, scaling, times, unit } from './matrix.js';
 import { colormap, css, rgb } from './colors.js';
 import { Occlusion } from './occlusion.js';
-import { ballFragment, ballVertex, hairFragment, hairVertex, lineVertex, meshFragment, meshVertex } from './shaders.js';
+import { ballFragment, ballVertex, hairFragment, hairVertex, lineFragment, lineVertex, meshFragment, meshVertex } from './shaders.js';
 
 const sides = {
     front: [0, 0, 1], back: [0, 0, -1], left: [-1, 0, 0.0001], right: [1, 0, 0.0001], top: [0, 1, 0.0001], bottom: [0, -1, 0.0001],
@@ -108,7 +108,7 @@ export class View {
         const gl = this.gl;
         this.mesh = compiled(gl, meshVertex, meshFragment);
         this.hair = compiled(gl, hairVertex, hairFragment);
-        this.line = compiled(gl, lineVertex, hairFragment);
+        this.line = compiled(gl, lineVertex, lineFragment);
         this.ball = compiled(gl, ballVertex, ballFragment);
         this.occlusion = new Occlusion(gl, compiled);
         this.colormap = this.texture2d(256, colormap(256));

@@ -25,6 +25,18 @@ vec3 hair_light(vec3 place) {
     float fade = clamp(1.0 - length(outside) / 8.0, 0.0, 1.0);
     return mix(vec3(1.0), clamp(light, 0.0, 1.0), fade * u_shadow);
 }
+// The same for a strand: looked up nearer to the lights, as the grid blurs strands into the air; of the light from all
+// around, the sky is brighter than the ground.
+vec3 strand_light(vec3 place) {
+    if (u_hair_grid.w <= 0.0) return vec3(1.0);
+    mat3 to_view = mat3(u_view);
+    float nearer = 0.9 * u_hair_grid.w, sky = dot(kSkyLight, vec3(1.0)), ground = dot(kGroundLight, vec3(1.0));
+    vec3 at = (place - u_hair_grid.xyz) / u_hair_grid.w / u_hair_size;
+    vec4 moments = texture(u_hair, at);
+    float around = moments.r + (sky - ground) / (3.0 * (sky + ground)) * dot(2.0 * moments.gba - 1.0, vec3(0.0, 1.0, 0.0) * to_view);
+    return vec3(hair_light(place + nearer * (kKeyDirection * to_view)).x, hair_light(place + nearer * (kRimDirection * to_view)).y,
+                mix(1.0, clamp(around, 0.0, 1.0), u_shadow));
+}
 // Loss of light at a strand, and light that goes through hair by its colour: dual scattering, as in strand_shading.h.
 vec3 loss_of(vec3 color) {
     vec3 logs = log(clamp(color, 1e-3, 1.0));
@@ -234,6 +246,7 @@ uniform mat4 u_projection;
 uniform float u_wide, u_thinnest, u_unit;
 uniform vec4 u_lobes;  // strengths and exponents of the white and the coloured reflection
 out vec3 v_color;
+out float v_cover, v_seed;  // part of its width that a strand has
 ${light}
 const float kDiffuse = 0.62, kScattered = 0.06;
 const vec3 kAround = 0.62 * kSkyLight + 0.38 * kGroundLight;
@@ -268,7 +281,7 @@ void main() {
     vec3 tangent = normalize(mat3(u_view) * along + vec3(0.0, 1e-9, 0.0));
     vec3 to_viewer = normalize(-position);
     vec3 color = a_color.rgb * a_color.rgb;
-    vec3 arriving = hair_light(world);
+    vec3 arriving = strand_light(world);
     float lean = 0.05 * (2.0 * a_color.a - 1.0);
     Strand strand = Strand(color, tangent, to_viewer, lean, loss_of(color));
     vec3 around = kScattered + (1.0 - kScattered) * through_hair(strand.loss, arriving.z);
@@ -278,7 +291,9 @@ void main() {
     v_color = shown(v_color);
     vec3 across = cross(tangent, to_viewer);
     across = length(across) > 1e-3 ? normalize(across) : normalize(vec3(to_viewer.z, 0.0, -to_viewer.x));
-    float reach = max(abs(a_here.w) * u_wide, -position.z * u_thinnest);
+    float half_width = abs(a_here.w) * u_wide, reach = max(half_width, -position.z * u_thinnest);
+    v_cover = half_width / max(reach, 1e-12);
+    v_seed = fract(91.7 * a_color.a + 0.37 * float(gl_VertexID >> 1 & 1));
     position += ((gl_VertexID & 1) == 0 ? reach : -reach) * across;
     // Ends reach out by the area of round ones: seen end-on, a strand is a disc.
     float end = last ? 1.0 : first ? -1.0 : 0.0;
@@ -286,7 +301,19 @@ void main() {
     gl_Position = u_projection * vec4(position, 1.0);
 }`;
 
+// Strands that are thinner than they are drawn cover so many of their fragments.
 export const hairFragment = `#version 300 es
+precision highp float;
+in vec3 v_color;
+in float v_cover, v_seed;
+out vec4 o_color;
+void main() {
+    float random = fract(52.98 * fract(dot(vec3(gl_FragCoord.xy, 97.0 * v_seed), vec3(0.0671, 0.00584, 0.137))));
+    if (v_cover < random) discard;
+    o_color = vec4(v_color, 1.0);
+}`;
+
+export const lineFragment = `#version 300 es
 precision highp float;
 in vec3 v_color;
 out vec4 o_color;
