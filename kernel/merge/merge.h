@@ -123,7 +123,7 @@ struct MergeOptions {
     /// smooths thorns that the source did not have, if they are all; else sews again with the seam
     /// fair and then with a transition of suitable widths, and keeps the result with fewest faults;
     /// a warning says so. Creases and flat faces of the targets stay.
-    /// Takes the time of sewing up to three times, and of judging up to twelve times. Not of the
+    /// Takes the time of sewing up to three times, and of judging up to 24 times. Not of the
     /// thesis's way, nor if `collar` is off or `smooth` is 0.
     bool mend = false;
     /// Directions of source and targets that are to lie the same way, for joins without keys. They
