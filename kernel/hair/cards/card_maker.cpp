@@ -17,9 +17,11 @@ constexpr double kLeastHalfWidth = 0.001;
 // Radians that a card's plane may turn from the surface of the head, and from one section to the
 // next.
 constexpr double kMostTilt = 0.7, kMostTurn = 0.35;
-// Part of a cluster's points below its card: of a card alone, which would lie within the outline
-// of its strands in their middle, and of two that cross.
-constexpr double kLiftAlone = 0.88, kLiftCrossed = 0.55;
+// Part of a cluster's points below its card: of a card alone nearly all, as few strands that lie
+// one behind the other already close the outline of hair; of two that cross.
+constexpr double kLiftAlone = 0.99, kLiftCrossed = 0.55;
+// Part of the tips that the end of a card reaches.
+constexpr double kTipsReached = 0.99;
 constexpr int kSkinSteps = 20;
 // Metres that a card may begin before the mean of its roots.
 constexpr double kMostBefore = 0.015;
@@ -143,7 +145,8 @@ class CardMaker {
         // Farther than that, a straight beginning would stand off the head.
         const double add_before =
             std::clamp(quantile(before, 0.9), 0.0, std::min(0.3 * length, kMostBefore));
-        const double add_behind = std::clamp(quantile(behind, 0.95), 0.0, kMostBehind * length);
+        const double add_behind =
+            std::clamp(quantile(behind, kTipsReached), 0.0, kMostBehind * length);
         std::vector<Vec3> points = centers();
         points.insert(points.begin(), points.front() - add_before * first);
         points.push_back(points.back() + add_behind * towards_tips(end));

@@ -26,6 +26,9 @@ constexpr double kLockWidth = 0.0012;
 constexpr double kLeastLocks = 24.0;
 // Part of the full width over which a lock is pointed at its end.
 constexpr float kLockPoint = 0.2f;
+// Locks end where their strands are thinner than between none and this part of the full width: tips
+// of others that lie behind them close the gaps that thinner ones leave.
+constexpr float kThinEnd = 0.5f;
 
 // What is seen of a segment of a strand.
 struct DrawnSegment {
@@ -129,7 +132,7 @@ class SlotPainter {
             const auto ends_below = static_cast<float>(turns - std::floor(turns));
             cover_widths(drawn_, card_.strands[i], widths);
             for (float& width : widths) {
-                const float part = width / full - ends_below;
+                const float part = width / full - kThinEnd * ends_below;
                 const float shape = std::clamp(part / kLockPoint, 0.0f, 1.0f);
                 width =
                     part > 0.0f ? static_cast<float>(step) * full * (0.4f + 0.6f * shape) : 0.0f;
