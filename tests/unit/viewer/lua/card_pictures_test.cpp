@@ -311,7 +311,7 @@ struct CardLimit {
 TEST_CASE("cards have the silhouette and the mean colour of their strands, 3 m away") {
     if (!test::can_draw()) return;
     const CardLimit limits[] = {
-        {"bob", 0.075}, {"waves", 0.065}, {"ringlets", 0.085}, {"ponytail", 0.09}, {"afro", 0.105}};
+        {"bob", 0.042}, {"waves", 0.065}, {"ringlets", 0.085}, {"ponytail", 0.09}, {"afro", 0.105}};
     for (const CardLimit& limit : limits) {
         CAPTURE(limit.preset);
         const CardError error = error_of_preset(limit.preset);
