@@ -24,8 +24,7 @@ bool is_better(const MergeReport& report, const MergeReport& than, bool ties);
 /// Whether a side crumpled beside the seams along enough edges to show.
 bool is_crumpled(const MergeReport& report);
 
-/// Whether the sides of a report crumpled along a tenth less than those of another, or have fewer
-/// faults, and no more.
+/// Whether a report has fewer faults than another, or as many and a tenth less of crumpled edges.
 bool is_fairer(const MergeReport& report, const MergeReport& than);
 
 /// Returns the faces of the groups that cross at a seam and show.

@@ -19,8 +19,6 @@ namespace {
 
 // Umbrella steps within the tangent planes, and times that the surface is bent.
 constexpr Index kSpotUmbrella = 2, kSpotPasses = 2;
-// In radii of a seam: what lies farther from it has no crumpled edges.
-constexpr double kSpotBand = 0.5;
 // Triangles that became thinner than this are flipped away.
 constexpr double kSpotThin = 2.0 * kDegree;
 
@@ -32,7 +30,7 @@ struct SpotSeam {
 };
 
 std::vector<SpotSeam> open_seams(const Sewn& sewn, double reach, const Context& context) {
-    const double radii = std::isfinite(reach) ? std::max(reach, kSpotBand) : kSpotBand;
+    const double radii = std::isfinite(reach) ? std::max(reach, kCrumpledReach) : kCrumpledReach;
     std::vector<SpotSeam> seams;
     for (std::size_t j = 0; j < sewn.seams.size(); ++j) {
         if (!sewn.kept.empty() && sewn.kept[j]) continue;

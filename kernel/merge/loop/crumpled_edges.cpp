@@ -10,8 +10,8 @@
 namespace lissom {
 namespace {
 
-// In radii; and the least change of an edge that shows.
-constexpr double kCrumpledReach = 0.5, kChanged = 20.0 * kDegree;
+// The least change of an edge that shows.
+constexpr double kChanged = 20.0 * kDegree;
 
 Vec3 area_at(std::span<const Index> face, std::span<const Vec3> places) {
     Vec3 sum = Vec3::Zero();

@@ -10,6 +10,9 @@
 
 namespace lissom {
 
+/// Distance from a seam, in its radii, within which edges are looked at.
+inline constexpr double kCrumpledReach = 0.5;
+
 /// An edge by its vertices, and its length.
 struct CrumpledEdge {
     Index a = kNoIndex, b = kNoIndex;
