@@ -106,9 +106,8 @@ function ponytails.style(head, values, options)
     all.volume = all.volume or hairdo.volume(all.scalp, room, spine)
     all.gravity = all.gravity or 0
     local style = lissom.hairstyle(head, all)
-    hairdo.gather(style, tie,
-        { count = values.gather, reach = 0.08, low = 0.002 + 0.012 * (1 - values.tightness) })
     local low = 0.002 + 0.012 * (1 - values.tightness)
+    hairdo.gather(style, tie, { count = values.gather, reach = 0.08, low = low })
     local azimuth = (tie.azimuth + 180) % 360 - 180
     if values.height < 20 then
         hairdo.lead(style, tie, { routes = on_both_sides(over_ears, azimuth), low = low })
